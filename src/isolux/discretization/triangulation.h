@@ -1,0 +1,154 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isolux/core/color.h"
+#include "isolux/core/vec3.h"
+#include "isolux/discretization/vertex_grid.h"
+#include "isolux/raycast/ray_caster.h"
+
+namespace isolux {
+
+// Notation of §3.2.2 of the paper
+//   v, w       vertices                        VertexId, Vertex
+//   δ          longest edge, m                 Rules::max_edge
+//   Δ          least area of a triangle, m²    Rules::min_area
+//   α_n        tolerance between normals, rad  Rules::normal_tolerance
+//   α_s        tolerance between ΔB's          Options::contrast (the radiosity procedure's)
+//   V.ρ        reflectance                     Vertex::reflectance
+//   V.B, V.ΔB  radiosity, lm/m²                Vertex::radiosity(), delta_radiosity()
+// Vertices store irradiance E (lx) rather than B = ρ E, so that black surfaces have lux too.
+
+using VertexId = std::uint32_t;
+using TriangleId = std::uint32_t;
+
+/// The geometric rules of §3.2.2; where they conflict, the lower number holds.
+struct Rules {
+  double max_edge = 0.1;           ///< δ, m: no edge is longer (rule 1)
+  double min_area = 3.5e-4;        ///< Δ, m²: no split makes a smaller triangle (rule 2)
+  double normal_tolerance = 0.52;  ///< α_n, rad: between the corners of a triangle (rule 4)
+};
+
+/// A point of the scene that may become a vertex (rule 3).
+struct SurfacePoint {
+  Vec3 position;
+  Vec3 normal;  ///< unit length, to the side that receives light
+  SurfaceId surface;
+  Rgb reflectance;
+};
+
+struct Vertex : SurfacePoint {
+  /// Where its light is gathered: the position, but for the corners of a light, which lie a
+  /// thousandth towards the light's inside, so that in a crease they see the adjoining surface.
+  Vec3 gather_point;
+  Rgb irradiance;        ///< E accumulated over all shots, lx
+  Rgb delta_irradiance;  ///< the part of it that came from the current shot, lx
+  bool on_light = false;
+  std::vector<VertexId> neighbours;   ///< ends of the possible edges from here
+  std::vector<TriangleId> triangles;  ///< the triangles around it
+
+  Rgb radiosity() const { return reflectance * irradiance; }
+  Rgb delta_radiosity() const { return reflectance * delta_irradiance; }
+};
+
+struct Triangle {
+  std::array<VertexId, 3> vertices{};  ///< counter-clockwise seen from the lit side
+  Vec3 normal;                         ///< unit length
+  double area = 0;                     ///< m²
+  Rgb emission;                        ///< E_i, lm/m², zero but for the triangles of lights
+  Rgb shot;                            ///< radiosity sent out so far, lm/m²
+  bool on_light = false;
+  bool alive = true;  ///< dead ones keep their id, so that ids stay valid
+};
+
+/// The growing discretization: a triangulation of points of the scene, with its possible edges
+/// (§3.2.2). Ids are indices, given in order of birth and never used again.
+class Triangulation {
+ public:
+  /// An empty triangulation for a scene within `bounds`. Throws InputError where the rules'
+  /// numbers are not positive, or δ is so small against the bounds that the vertex grid would not
+  /// fit into memory.
+  Triangulation(const Rules& rules, const Bounds& bounds);
+
+  const Rules& rules() const { return rules_; }
+  std::span<const Vertex> vertices() const { return vertices_; }
+  std::span<const Triangle> triangles() const { return triangles_; }
+  std::span<Vertex> vertices() { return vertices_; }
+  std::span<Triangle> triangles() { return triangles_; }
+  const Vertex& vertex(VertexId id) const { return vertices_[id]; }
+  Vertex& vertex(VertexId id) { return vertices_[id]; }
+  const Triangle& triangle(TriangleId id) const { return triangles_[id]; }
+  Triangle& triangle(TriangleId id) { return triangles_[id]; }
+  /// The number of living triangles, those of lights included.
+  std::size_t triangle_count() const { return alive_; }
+
+  /// Cuts a light into triangles: `soup` becomes vertices and triangles marked `on_light`, whose
+  /// vertices never take other edges. Invalidates references into vertices() and triangles().
+  void add_light(const TriangleSoup& soup, SurfaceId surface, const Rgb& reflectance,
+                 const Rgb& exitance);
+
+  /// extend-triangulation (§3.2.2): makes `point` a vertex, connects it to every vertex within δ
+  /// whose segment crosses no possible edge, and turns the three-cycles that this closes into
+  /// triangles. Returns the new vertex, its light being zero, with `neighbours` the vertices it
+  /// was connected to; nothing, and no change, where a vertex stands closer than least_spacing().
+  /// All ids stay valid; references into vertices() and triangles() don't. Cost: the vertices
+  /// within δ times the edges within √5/2 δ.
+  std::optional<VertexId> extend(const SurfacePoint& point);
+
+  /// split(R) (§3.2.5): puts `point`, a point of the scene over `triangle`, into the triangle, which
+  /// is replaced by up to three (fewer where rule 4 forbids one). Each child inherits what its
+  /// parent has emitted and shot; the new vertex's light is zero. Returns the new vertex; nothing,
+  /// and no change, where the triangle is dead or a light's, the point falls outside it or within
+  /// 2 % of its sides, or a child would be smaller than Δ (rule 2). Ids and references as extend().
+  std::optional<VertexId> split(TriangleId triangle, const SurfacePoint& point);
+
+  /// remove-from-triangulation (§3.2.4): the triangle dies; its vertices and its edges stay, as
+  /// possible edges. A dead triangle, or a light's, is left as it is. Everything stays valid.
+  void remove(TriangleId triangle);
+
+  /// The vertices that extend() would connect `point` to, nearest first, without changing
+  /// anything.
+  std::vector<VertexId> connectable(const SurfacePoint& point) const;
+
+  /// Whether an edge stands between the two vertices.
+  bool has_edge(VertexId a, VertexId b) const;
+
+  /// Two vertices whose normals are within α_n of one another are no closer than this (m): 0.2 √Δ.
+  double least_spacing() const;
+
+  /// Puts back a vertex or triangle as saved; for loading a solution. restore_triangle throws
+  /// InputError where a vertex does not exist, is repeated, or an edge would have three triangles.
+  VertexId restore_vertex(Vertex vertex);
+  TriangleId restore_triangle(const std::array<VertexId, 3>& vertices, const Rgb& emission,
+                              const Rgb& shot, bool on_light);
+
+  /// Checks every invariant (docs/architecture.md lists them); returns a line for each violation,
+  /// at most 20. Cost: linear.
+  std::vector<std::string> validate() const;
+
+ private:
+  struct PlaneFrame;
+  bool compatible(const Vec3& normal_a, const Vec3& normal_b) const;
+  std::vector<VertexId> connectable(const SurfacePoint& point, std::vector<VertexId>& near,
+                                    const PlaneFrame& plane) const;
+  VertexId add_vertex(const SurfacePoint& point);
+  void add_edge(VertexId a, VertexId b);
+  TriangleId add_triangle(VertexId a, VertexId b, VertexId c);
+  bool closes_triangle(VertexId v, VertexId a, VertexId b, std::span<const VertexId> near,
+                       const PlaneFrame& plane) const;
+  bool side_free(VertexId a, VertexId b, VertexId opposite, const PlaneFrame& plane) const;
+
+  Rules rules_;
+  double cos_normal_tolerance_;
+  VertexGrid grid_;
+  std::vector<Vertex> vertices_;
+  std::vector<Triangle> triangles_;
+  std::size_t alive_ = 0;
+};
+
+}  // namespace isolux

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "isolux/core/vec3.h"
+
+namespace isolux {
+
+/// A regular grid over the vertices (§3.2.2), of which only the voxels in use take memory.
+class VertexGrid {
+ public:
+  /// `cell`: side of a voxel, m.
+  VertexGrid(const Vec3& origin, double cell) : origin_(origin), cell_(cell) {}
+
+  void insert(std::uint32_t id, const Vec3& position);
+
+  /// Every id in the voxels that the cube of half-side `radius` around `center` touches: a
+  /// superset of those within `radius`, in no particular but a reproducible order; into `ids`
+  /// (cleared first).
+  void query(const Vec3& center, double radius, std::vector<std::uint32_t>& ids) const;
+
+ private:
+  struct Cell {
+    std::int32_t x, y, z;
+    bool operator==(const Cell&) const = default;
+  };
+  struct CellHash {
+    std::size_t operator()(const Cell& c) const;
+  };
+  Cell cell_of(const Vec3& p) const;
+
+  Vec3 origin_;
+  double cell_;
+  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> voxels_;
+};
+
+}  // namespace isolux
