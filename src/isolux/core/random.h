@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace isolux {
@@ -17,7 +18,7 @@ class Random {
 
   /// The next number, uniform in 0 … n − 1 (n > 0).
   std::uint64_t below(std::uint64_t n) {
-    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next()) * n) >> 64);
+    return std::min(static_cast<std::uint64_t>(uniform() * static_cast<double>(n)), n - 1);
   }
 
   std::uint64_t next() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }

@@ -10,9 +10,9 @@ namespace isolux {
 
 /// A point where a ray meets a triangle of the triangulation (I_d of §3.2.3).
 struct MeshHit {
-  double t = 0;                      ///< along the ray, in lengths of its direction
+  double t = 0;  ///< along the ray, in lengths of its direction
   TriangleId triangle = 0;
-  std::array<double, 3> weights{};   ///< barycentric, in the order of the triangle's vertices
+  std::array<double, 3> weights{};  ///< barycentric, in the order of the triangle's vertices
 };
 
 /// Rays against a growing triangulation: a tree over the triangles that stood when it was last

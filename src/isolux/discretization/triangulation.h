@@ -100,11 +100,12 @@ class Triangulation {
   /// within δ times the edges within √5/2 δ.
   std::optional<VertexId> extend(const SurfacePoint& point);
 
-  /// split(R) (§3.2.5): puts `point`, a point of the scene over `triangle`, into the triangle, which
-  /// is replaced by up to three (fewer where rule 4 forbids one). Each child inherits what its
-  /// parent has emitted and shot; the new vertex's light is zero. Returns the new vertex; nothing,
-  /// and no change, where the triangle is dead or a light's, the point falls outside it or within
-  /// 2 % of its sides, or a child would be smaller than Δ (rule 2). Ids and references as extend().
+  /// split(R) (§3.2.5): puts `point`, a point of the scene over `triangle`, into the triangle,
+  /// which is replaced by up to three (fewer where rule 4 forbids one). Each child inherits what
+  /// its parent has emitted and shot; the new vertex's light is zero. Returns the new vertex;
+  /// nothing, and no change, where the triangle is dead or a light's, the point falls outside it or
+  /// within 2 % of its sides, or a child would be smaller than Δ (rule 2). Ids and references as
+  /// extend().
   std::optional<VertexId> split(TriangleId triangle, const SurfacePoint& point);
 
   /// remove-from-triangulation (§3.2.4): the triangle dies; its vertices and its edges stay, as
@@ -139,6 +140,7 @@ class Triangulation {
   VertexId add_vertex(const SurfacePoint& point);
   void add_edge(VertexId a, VertexId b);
   TriangleId add_triangle(VertexId a, VertexId b, VertexId c);
+  bool faces_outward(VertexId a, VertexId b, VertexId c) const;
   bool closes_triangle(VertexId v, VertexId a, VertexId b, std::span<const VertexId> near,
                        const PlaneFrame& plane) const;
   bool side_free(VertexId a, VertexId b, VertexId opposite, const PlaneFrame& plane) const;

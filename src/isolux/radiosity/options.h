@@ -22,20 +22,20 @@ enum class Distribution {
 /// Everything that steers a solve. The defaults are the paper's method with the settings that
 /// reproduce its Table 1 (docs/reproduction.md).
 struct Options {
-  Rules rules;                      ///< δ, Δ, α_n
-  double contrast = 2.0;            ///< α_s: a triangle is split where its ΔE's differ by more
-                                    ///< than α_s × their mean (rule 5)
-  int iterations = 800;             ///< shots
-  double stop_at_unshot = 1e-3;     ///< stop where this fraction of the emitted power is unshot
-  int grid = 28;                    ///< rays per vertex: a grid × grid of jittered cells
-  int least_rays = 0;               ///< extra uniform rays per vertex, for small objects (§4.2)
+  Rules rules;                   ///< δ, Δ, α_n
+  double contrast = 2.0;         ///< α_s: a triangle is split where its ΔE's differ by more
+                                 ///< than α_s × their mean (rule 5)
+  int iterations = 800;          ///< shots
+  double stop_at_unshot = 1e-3;  ///< stop where this fraction of the emitted power is unshot
+  int grid = 28;                 ///< rays per vertex: a grid × grid of jittered cells
+  int least_rays = 0;            ///< extra uniform rays per vertex, for small objects (§4.2)
   Distribution distribution = Distribution::malley;
   int eye_grid = 32;                ///< rays of the eye pass: eye_grid², 0 for none
   double pairing_tolerance = 0.02;  ///< relative to the distance along the ray
   int subdivisions = 3;             ///< of an emitter half hidden from a vertex
   Selection selection = Selection::radiosity;
-  bool refine = true;               ///< off: transfer energy over the mesh as it stands
-  std::string camera;               ///< whose eye the eye pass takes; empty: the first
+  bool refine = true;  ///< off: transfer energy over the mesh as it stands
+  std::string camera;  ///< whose eye the eye pass takes; empty: the first
   std::uint64_t seed = 1;
 };
 

@@ -7,20 +7,20 @@ namespace isolux {
 /// What a solve did. Fluxes are luminous (lm), the colour channels weighted to luminance.
 struct Statistics {
   int iterations = 0;
-  bool converged = false;          ///< the unshot power fell below Options::stop_at_unshot
-  bool interrupted = false;        ///< stopped by the caller before that
-  std::uint64_t triangles = 0;     ///< alive, those of lights included
+  bool converged = false;       ///< the unshot power fell below Options::stop_at_unshot
+  bool interrupted = false;     ///< stopped by the caller before that
+  std::uint64_t triangles = 0;  ///< alive, those of lights included
   std::uint64_t vertices = 0;
-  std::uint64_t removed = 0;       ///< triangles that a ray proved wrong (§3.2.4)
-  std::uint64_t extended = 0;      ///< vertices born by extension (§3.2.2)
-  std::uint64_t split = 0;         ///< vertices born by splits (§3.2.5)
+  std::uint64_t removed = 0;   ///< triangles that a ray proved wrong (§3.2.4)
+  std::uint64_t extended = 0;  ///< vertices born by extension (§3.2.2)
+  std::uint64_t split = 0;     ///< vertices born by splits (§3.2.5)
   std::uint64_t refinement_rays = 0;
   std::uint64_t shadow_rays = 0;
-  double emitted_flux = 0;         ///< lm
-  double unshot_flux = 0;          ///< lm
-  double ambient_exitance = 0;     ///< lm/m²: Cohen's (1988) ambient term of what is unshot
-  double mesh_area = 0;            ///< m²
-  double cpu_seconds = 0;          ///< not part of the solution's file: it differs between runs
+  double emitted_flux = 0;      ///< lm
+  double unshot_flux = 0;       ///< lm
+  double ambient_exitance = 0;  ///< lm/m²: Cohen's (1988) ambient term of what is unshot
+  double mesh_area = 0;         ///< m²
+  double cpu_seconds = 0;       ///< not part of the solution's file: it differs between runs
   double wall_seconds = 0;
 };
 

@@ -20,10 +20,11 @@ struct SurfaceId {
 
 /// A point of the scene that a ray meets.
 struct SurfaceHit {
-  double t = 0;       ///< along the ray, in lengths of its direction
-  Vec3 point;         ///< on the true surface, in double precision
-  Vec3 normal;        ///< unit length, to the side that receives light
+  double t = 0;  ///< along the ray, in lengths of its direction
+  Vec3 point;    ///< on the true surface, in double precision
+  Vec3 normal;   ///< unit length, to the side that receives light
   SurfaceId surface;
+  bool back = false;  ///< on the side that the shape's own normal points away from
 };
 
 /// The open piece t_min < t < t_max of a ray.

@@ -1,0 +1,132 @@
+#include "isolux/discretization/mesh_rays.h"
+
+#include "isolux/raycast/triangle_tree.h"
+
+namespace isolux {
+namespace {
+
+TriangleCorners corners_of(const Triangulation& mesh, TriangleId id) {
+  const auto& v = mesh.triangle(id).vertices;
+  return {mesh.vertex(v[0]).position, mesh.vertex(v[1]).position, mesh.vertex(v[2]).position};
+}
+
+/// Spheres around triangles, coordinate by coordinate, so that one ray is held against many at
+/// once.
+struct BoundingSpheres {
+  std::vector<float> x, y, z, radius_squared;
+
+  void add(const TriangleCorners& c) {
+    const Vec3 center = (c[0] + c[1] + c[2]) / 3;
+    double r2 = 0;
+    for (const Vec3& p : c) r2 = std::max(r2, length_squared(p - center));
+    x.push_back(static_cast<float>(center.x));
+    y.push_back(static_cast<float>(center.y));
+    z.push_back(static_cast<float>(center.z));
+    radius_squared.push_back(static_cast<float>(1.02 * r2));
+  }
+  void clear() { x.clear(), y.clear(), z.clear(), radius_squared.clear(); }
+  std::size_t size() const { return x.size(); }
+};
+
+/// touched[i] = 1 where the line comes within sphere `first` + i.
+void touch(const BoundingSpheres& spheres, std::size_t first, const Ray& ray,
+           std::vector<std::uint8_t>& touched) {
+  const Vec3 unit = normalized(ray.direction);
+  const auto ox = static_cast<float>(ray.origin.x), oy = static_cast<float>(ray.origin.y),
+             oz = static_cast<float>(ray.origin.z);
+  const auto dx = static_cast<float>(unit.x), dy = static_cast<float>(unit.y),
+             dz = static_cast<float>(unit.z);
+  const float* x = spheres.x.data() + first;
+  const float* y = spheres.y.data() + first;
+  const float* z = spheres.z.data() + first;
+  const float* r2 = spheres.radius_squared.data() + first;
+  // Room for the rounding of single precision: (r + e)² ≤ 1.01 r² + 101 e², e = 4e-7 × distance.
+  constexpr float kSlack = 1.6e-11f;
+  const auto far = static_cast<float>(length_squared(ray.origin));
+  const std::size_t n = spheres.size() - first;
+  touched.resize(n);
+  std::uint8_t* out = touched.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    const float cx = x[i] - ox, cy = y[i] - oy, cz = z[i] - oz;
+    const float mx = cy * dz - cz * dy, my = cz * dx - cx * dz, mz = cx * dy - cy * dx;
+    out[i] = mx * mx + my * my + mz * mz <= r2[i] + kSlack * (far + cx * cx + cy * cy + cz * cz);
+  }
+}
+
+}  // namespace
+
+class MeshRays::Impl {
+ public:
+  explicit Impl(const Triangulation& triangulation) : mesh(triangulation), tree({}) {}
+
+  void update() {
+    const std::size_t n = mesh.triangles().size();
+    for (std::size_t i = tree_end + young.size(); i < n; ++i) {
+      young.add(corners_of(mesh, static_cast<TriangleId>(i)));
+    }
+    // A ray pays for each young triangle, a rebuild for each triangle: balanced near the root.
+    if (young.size() * young.size() <= 4 * mesh.triangle_count() + 4096) return;
+    std::vector<TriangleCorners> corners;
+    ids.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!mesh.triangle(static_cast<TriangleId>(i)).alive) continue;
+      ids.push_back(static_cast<TriangleId>(i));
+      corners.push_back(corners_of(mesh, static_cast<TriangleId>(i)));
+    }
+    tree = TriangleTree(corners);
+    tree_end = n;
+    young.clear();
+  }
+
+  const Triangulation& mesh;
+  TriangleTree tree;
+  std::vector<TriangleId> ids;  // of the tree's triangles
+  std::size_t tree_end = 0;     // triangles with smaller ids are in the tree, or dead
+  BoundingSpheres young;        // of the triangles from tree_end on
+};
+
+MeshRays::MeshRays(const Triangulation& mesh) : impl_(std::make_unique<Impl>(mesh)) { update(); }
+MeshRays::~MeshRays() = default;
+
+void MeshRays::update() { impl_->update(); }
+
+void MeshRays::hits_since(TriangleId first, const Ray& ray, Interval within,
+                          std::vector<MeshHit>& hits) const {
+  const Triangulation& mesh = impl_->mesh;
+  const auto try_triangle = [&](TriangleId id) {
+    TriangleHit hit;
+    if (mesh.triangle(id).alive && intersect_triangle(corners_of(mesh, id), ray, hit) &&
+        hit.t > within.min && hit.t < within.max) {
+      hits.push_back({hit.t, id, hit.weights});
+    }
+  };
+  const std::size_t begin = std::max<std::size_t>(first, impl_->tree_end);
+  const std::size_t listed = impl_->tree_end + impl_->young.size();
+  if (begin < listed) {
+    thread_local std::vector<std::uint8_t> touched;
+    touch(impl_->young, begin - impl_->tree_end, ray, touched);
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+      if (touched[i]) try_triangle(static_cast<TriangleId>(begin + i));
+    }
+  }
+  for (std::size_t i = std::max(begin, listed); i < mesh.triangles().size(); ++i) {
+    try_triangle(static_cast<TriangleId>(i));
+  }
+}
+
+void MeshRays::all_hits(const Ray& ray, Interval within, std::vector<MeshHit>& hits) const {
+  thread_local std::vector<TriangleHit> found;
+  found.clear();
+  hits.clear();
+  impl_->tree.all_hits(ray, within, found);
+  for (const TriangleHit& hit : found) {
+    const TriangleId id = impl_->ids[hit.triangle];
+    if (impl_->mesh.triangle(id).alive) hits.push_back({hit.t, id, hit.weights});
+  }
+  hits_since(0, ray, within, hits);
+  std::sort(hits.begin(), hits.end(), [](const MeshHit& a, const MeshHit& b) {
+    return std::pair(a.t, a.triangle) < std::pair(b.t, b.triangle);
+  });
+}
+
+}  // namespace isolux

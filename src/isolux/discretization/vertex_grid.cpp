@@ -1,0 +1,39 @@
+#include "isolux/discretization/vertex_grid.h"
+
+namespace isolux {
+
+VertexGrid::Cell VertexGrid::cell_of(const Vec3& p) const {
+  const Vec3 q = (p - origin_) / cell_;
+  return {static_cast<std::int32_t>(std::floor(q.x)), static_cast<std::int32_t>(std::floor(q.y)),
+          static_cast<std::int32_t>(std::floor(q.z))};
+}
+
+std::size_t VertexGrid::CellHash::operator()(const Cell& c) const {
+  // Three large primes, after Teschner et al. 2003, then folded so that low bits depend on all.
+  std::uint64_t h = static_cast<std::uint32_t>(c.x) * 73856093ull ^
+                    static_cast<std::uint32_t>(c.y) * 19349663ull ^
+                    static_cast<std::uint32_t>(c.z) * 83492791ull;
+  h *= 0x9e3779b97f4a7c15u;
+  return static_cast<std::size_t>(h ^ (h >> 32));
+}
+
+void VertexGrid::insert(std::uint32_t id, const Vec3& position) {
+  voxels_[cell_of(position)].push_back(id);
+}
+
+void VertexGrid::query(const Vec3& center, double radius, std::vector<std::uint32_t>& ids) const {
+  ids.clear();
+  const Vec3 reach{radius, radius, radius};
+  const Cell lower = cell_of(center - reach), upper = cell_of(center + reach);
+  for (std::int32_t z = lower.z; z <= upper.z; ++z) {
+    for (std::int32_t y = lower.y; y <= upper.y; ++y) {
+      for (std::int32_t x = lower.x; x <= upper.x; ++x) {
+        const auto voxel = voxels_.find({x, y, z});
+        if (voxel == voxels_.end()) continue;
+        ids.insert(ids.end(), voxel->second.begin(), voxel->second.end());
+      }
+    }
+  }
+}
+
+}  // namespace isolux

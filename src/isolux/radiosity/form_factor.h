@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "isolux/core/vec3.h"
+
+namespace isolux {
+
+/// The form factor F_{dA_j–A_i} (eq. 4) from a differential area at `point` with unit `normal` to
+/// a convex polygon, seen whole: the part of what leaves dA_j that arrives there, 0 … 1. The
+/// polygon is clipped at the horizon of dA_j; which side of it faces the point does not matter.
+///
+/// §3.3 takes Γ_g for the cross product of unit vectors, whose length is sin γ; as its definition
+/// says, it is scaled to the angle γ here (Hottel & Sarofim 1967). At most 8 corners.
+double form_factor(const Vec3& point, const Vec3& normal, std::span<const Vec3> polygon);
+
+}  // namespace isolux

@@ -1,0 +1,195 @@
+#include "isolux/radiosity/solve.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <ctime>
+
+#include "isolux/core/error.h"
+#include "isolux/core/parallel.h"
+#include "isolux/radiosity/energy.h"
+#include "isolux/radiosity/refine.h"
+#include "isolux/radiosity/visibility.h"
+
+namespace isolux {
+
+// Notation of §3.2.1
+//   T          the triangle that shoots          Shot
+//   T.B        its unshot radiosity, lm/m²       Shot::radiosity (as printed, T.B would be shot
+//                                                again and again, and energy diverge)
+//   V.ΔB, V.B  = ρ × Vertex::delta_irradiance, ρ × Vertex::irradiance
+//   R.ΔB       unshot_radiosity(R)
+
+namespace {
+
+class Stopwatch {
+ public:
+  double wall() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double cpu() const { return double(std::clock() - cpu_start_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_start_ = std::clock();
+};
+
+/// The brightest triangle and the unshot light of all, found in one pass.
+struct Brightest {
+  TriangleId triangle = 0;
+  double measure = 0;      // unshot radiosity or power, of either sign
+  double unshot_flux = 0;  // lm
+};
+
+Brightest brightest_triangle(const Triangulation& mesh, Selection selection) {
+  Brightest best;
+  const auto triangles = mesh.triangles();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (!triangles[i].alive) continue;
+    const double unshot = std::abs(luminance(unshot_radiosity(mesh, triangles[i])));
+    const double flux = unshot * triangles[i].area;
+    best.unshot_flux += flux;
+    const double measure = selection == Selection::power ? flux : unshot;
+    if (measure > best.measure) {
+      best.measure = measure;
+      best.triangle = static_cast<TriangleId>(i);
+    }
+  }
+  return best;
+}
+
+/// T sends what it has: afterwards nothing of it is unshot.
+Shot take_shot(Triangulation& mesh, TriangleId id) {
+  Triangle& triangle = mesh.triangle(id);
+  const Shot shot{id, emitter_of(mesh, id), unshot_radiosity(mesh, triangle)};
+  triangle.shot += shot.radiosity;
+  return shot;
+}
+
+/// For each vertex V ∉ T: V.ΔB ← V.ρ × T.B × F_{V–T}; V.B ← V.B + V.ΔB. Returns the number of
+/// shadow rays.
+std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, const Shot& shot,
+                                           const RayCaster& rays, int subdivisions) {
+  constexpr std::size_t kGrain = 512;
+  const auto vertices = mesh.vertices();
+  const auto corners = mesh.triangle(shot.triangle).vertices;
+  std::atomic<std::uint64_t> ray_count = 0;
+  parallel_for(vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<Receiver, kGrain> receivers;
+    std::array<double, kGrain> factors;
+    for (std::size_t i = begin; i < end; ++i) {
+      receivers[i - begin] = {vertices[i].gather_point, vertices[i].normal};
+    }
+    const std::size_t n = end - begin;
+    ray_count += visible_form_factors(rays, shot.emitter, {receivers.data(), n}, subdivisions,
+                                      {factors.data(), n});
+    for (std::size_t i = begin; i < end; ++i) {
+      Vertex& vertex = vertices[i];
+      const bool of_shot = std::find(corners.begin(), corners.end(), i) != corners.end();
+      vertex.delta_irradiance = of_shot ? Rgb{} : shot.radiosity * factors[i - begin];
+      vertex.irradiance += vertex.delta_irradiance;
+    }
+  });
+  return ray_count;
+}
+
+}  // namespace
+
+void check_options(const Options& options) {
+  const auto require = [](bool holds, const char* text) {
+    if (!holds) throw InputError(text);
+  };
+  require(options.contrast >= 0, "the contrast α_s must not be negative");
+  require(options.iterations >= 0 && options.iterations <= 100'000'000,
+          "the number of iterations must lie between 0 and 100,000,000");
+  require(options.grid >= 1 && options.grid <= 4096,
+          "the ray grid must have between 1 and 4096 cells a side");
+  require(options.least_rays >= 0 && options.least_rays <= 16'000'000,
+          "the least number of rays must lie between 0 and 16,000,000");
+  require(options.eye_grid >= 0 && options.eye_grid <= 4096,
+          "the eye pass must have between 0 and 4096 rays a side");
+  require(options.pairing_tolerance > 0 && options.pairing_tolerance < 1,
+          "the pairing tolerance must lie between 0 and 1");
+  require(options.subdivisions >= 0 && options.subdivisions <= 8,
+          "the emitter subdivisions must lie between 0 and 8");
+  require(options.stop_at_unshot >= 0 && options.stop_at_unshot < 1,
+          "the unshot fraction to stop at must lie between 0 and 1");
+}
+
+void discretize_lights(const Scene& scene, double max_edge, Triangulation& mesh) {
+  bool any = false;
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!object.emits()) continue;
+    const std::optional<TriangleSoup> soup = object.shape->triangulate(max_edge);
+    if (!soup) {
+      throw InputError(
+          fmt::format("light '{}' has a shape that can't be cut into triangles", object.name));
+    }
+    mesh.add_light(*soup, {i, 0}, scene.material_of(i).reflectance, object.exitance);
+    any = true;
+  }
+  if (!any) throw InputError("the scene has no light: give an object an 'emission'");
+}
+
+Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Options& options,
+                           const ProgressCallback& progress) {
+  const Stopwatch stopwatch;
+  Statistics statistics;
+  Refinement refinement(mesh, rays, options, statistics);
+  statistics.emitted_flux = energy_of(mesh).emitted_flux;
+  const double enough = options.stop_at_unshot * statistics.emitted_flux;
+
+  if (options.refine && options.eye_grid > 0 && !rays.scene().cameras.empty()) {
+    refinement.refine_from_eye(rays.scene().camera(options.camera));
+  }
+  Brightest brightest = brightest_triangle(mesh, options.selection);
+  while (statistics.iterations < options.iterations) {
+    const Shot shot = take_shot(mesh, brightest.triangle);
+    statistics.shadow_rays += calculate_vertex_radiosities(mesh, shot, rays, options.subdivisions);
+    if (options.refine) {
+      refinement.refine(shot);
+      refinement.split_triangles(shot);
+    }
+    brightest = brightest_triangle(mesh, options.selection);
+    ++statistics.iterations;
+
+    statistics.converged = brightest.unshot_flux <= enough;
+    if (statistics.converged) break;
+    if (progress) {
+      const double seconds = stopwatch.wall();
+      const auto ray_count =
+          static_cast<double>(statistics.refinement_rays + statistics.shadow_rays);
+      const int left = options.iterations - statistics.iterations;
+      if (!progress({statistics.iterations, options.iterations,
+                     brightest.unshot_flux / statistics.emitted_flux, mesh.triangle_count(),
+                     ray_count / std::max(seconds, 1e-9),
+                     seconds / statistics.iterations * left})) {
+        statistics.interrupted = true;
+        break;
+      }
+    }
+  }
+
+  const Energy energy = energy_of(mesh);
+  statistics.unshot_flux = energy.unshot_flux;
+  statistics.ambient_exitance = energy.ambient_exitance;
+  statistics.mesh_area = energy.area;
+  statistics.triangles = mesh.triangle_count();
+  statistics.vertices = mesh.vertices().size();
+  statistics.cpu_seconds = stopwatch.cpu();
+  statistics.wall_seconds = stopwatch.wall();
+  return statistics;
+}
+
+Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress) {
+  check_options(options);
+  const RayCaster rays(scene);
+  Solved solved{Triangulation(options.rules, scene.bounds()), {}};
+  discretize_lights(scene, options.rules.max_edge, solved.mesh);
+  solved.statistics = transfer_energy(solved.mesh, rays, options, progress);
+  return solved;
+}
+
+}  // namespace isolux

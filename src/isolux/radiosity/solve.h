@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+
+#include "isolux/discretization/triangulation.h"
+#include "isolux/radiosity/options.h"
+#include "isolux/radiosity/statistics.h"
+#include "isolux/raycast/ray_caster.h"
+#include "isolux/scene/scene.h"
+
+namespace isolux {
+
+/// How far a solve has come.
+struct Progress {
+  int iteration = 0;
+  int iterations = 0;          ///< at most
+  double unshot_fraction = 1;  ///< of the emitted flux
+  std::uint64_t triangles = 0;
+  double rays_per_second = 0;  ///< so far, on average
+  double seconds_left = 0;     ///< estimated
+};
+
+/// Asked after every iteration; returns false to stop with what there is.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+struct Solved {
+  Triangulation mesh;
+  Statistics statistics;
+};
+
+/// Procedure Radiosity (§3.2.1): the light of the scene on a triangulation grown from nothing.
+/// Throws InputError where the scene has no light that can be cut into triangles, options are out
+/// of range, or the camera does not exist. The same scene, options and seed give the same bits on
+/// any number of threads.
+Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress = {});
+
+/// Discretize light sources into triangles: the first line of the procedure. Sides are no longer
+/// than `max_edge` (m).
+void discretize_lights(const Scene& scene, double max_edge, Triangulation& mesh);
+
+/// The While loop of the procedure on a triangulation that holds the lights and perhaps more;
+/// light already in it counts as shot where Triangle::shot says so.
+Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Options& options,
+                           const ProgressCallback& progress = {});
+
+/// Throws InputError, naming the option, where one is out of range.
+void check_options(const Options& options);
+
+}  // namespace isolux

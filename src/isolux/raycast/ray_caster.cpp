@@ -1,0 +1,271 @@
+#include "isolux/raycast/ray_caster.h"
+
+#include <algorithm>
+#include <array>
+
+#include "isolux/raycast/embree_device.h"
+
+namespace isolux {
+namespace {
+
+/// Rays travel with their double-precision original; Embree's own single-precision ray only finds
+/// the boxes to look into.
+struct Query : RTCIntersectContext {
+  Interval within;
+  // For nearest(): the best hits so far, of any surface and of lights.
+  const Ray* ray = nullptr;
+  double tie = 0;  // hits closer together than this, in t, coincide
+  std::optional<SurfaceHit> first, first_light;
+  // For all_hits(): where they go.
+  std::vector<SurfaceHit>* all = nullptr;
+  // For occluded(): the rays of the packet, by their id.
+  std::span<const Segment> segments;
+};
+
+Ray ray_of(const Segment& s) { return {s.from, s.to - s.from}; }
+
+constexpr double kSegmentEnd = 1 - 1e-6;
+
+/// An object as Embree sees it.
+struct Primitive {
+  const Object* object;
+  std::uint32_t index;
+  bool both_sides;
+};
+
+SurfaceHit surface_hit(const Primitive& primitive, const Hit& hit) {
+  return {hit.t, hit.point, hit.normal, {primitive.index, hit.face}, false};
+}
+
+SurfaceHit other_side(SurfaceHit hit) {
+  hit.normal = -hit.normal;
+  hit.back = !hit.back;
+  return hit;
+}
+
+bool earlier(const SurfaceHit& a, const SurfaceHit& b) {
+  return std::tuple(a.t, a.surface.object, a.surface.face) <
+         std::tuple(b.t, b.surface.object, b.surface.face);
+}
+
+/// Whether two hits lie on one and the same plane, one surface glued to the other.
+bool glued(const SurfaceHit& a, const SurfaceHit& b, double tie) {
+  return std::abs(a.t - b.t) <= tie && std::abs(dot(a.normal, b.normal)) > 0.9999;
+}
+
+void bounds_callback(const RTCBoundsFunctionArguments* args) {
+  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
+  const Bounds b = primitive.object->shape->part_bounds(args->primID);
+  // Rays arrive rounded to single precision: the boxes have room for that.
+  const double slack = 4e-7 * (length(b.lower) + length(b.upper)) + 1e-30;
+  RTCBounds& out = *args->bounds_o;
+  out.lower_x = static_cast<float>(b.lower.x - slack);
+  out.lower_y = static_cast<float>(b.lower.y - slack);
+  out.lower_z = static_cast<float>(b.lower.z - slack);
+  out.upper_x = static_cast<float>(b.upper.x + slack);
+  out.upper_y = static_cast<float>(b.upper.y + slack);
+  out.upper_z = static_cast<float>(b.upper.z + slack);
+}
+
+void intersect_callback(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& query = *static_cast<Query*>(args->context);
+  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
+  thread_local Hits hits;
+  hits.clear();
+  primitive.object->shape->intersect_part(args->primID, *query.ray, hits);
+  const bool light = primitive.object->emits();
+  for (const Hit& hit : hits) {
+    if (!(hit.t > query.within.min && hit.t < query.within.max)) continue;
+    const SurfaceHit found = surface_hit(primitive, hit);
+    if (query.all) {
+      query.all->push_back(found);
+      if (primitive.both_sides) query.all->push_back(other_side(found));
+      continue;
+    }
+    if (!query.first || earlier(found, *query.first)) {
+      query.first = found;
+      float& tfar = RTCRayN_tfar(reinterpret_cast<RTCRayN*>(args->rayhit), args->N, 0);
+      tfar = static_cast<float>((found.t + query.tie) * (1 + 1e-6));
+    }
+    if (light && (!query.first_light || earlier(found, *query.first_light))) {
+      query.first_light = found;
+    }
+  }
+}
+
+void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+  auto& query = *static_cast<Query*>(args->context);
+  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (!args->valid[lane]) continue;
+    const Segment& segment = query.segments[RTCRayN_id(args->ray, args->N, lane)];
+    if (primitive.object->shape->part_occludes(args->primID, ray_of(segment), 0, kSegmentEnd)) {
+      RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
+}  // namespace
+
+class RayCaster::Impl {
+ public:
+  explicit Impl(const Scene& s) : scene(s), scale(s.bounds().diagonal()) {
+    rtc = rtcNewScene(device.get());
+    rtcSetSceneFlags(rtc, RTC_SCENE_FLAG_ROBUST);
+    primitives.reserve(scene.objects.size());
+    for (const Object& object : scene.objects) add(object);
+    rtcCommitScene(rtc);
+  }
+  ~Impl() { rtcReleaseScene(rtc); }
+
+  void add(const Object& object) {
+    const auto index = static_cast<std::uint32_t>(primitives.size());
+    const bool solid = object.shape->solid();
+    primitives.push_back({&object, index, object.sides == Sides::both && !solid});
+    if (solid) {
+      const Bounds b = object.shape->bounds();
+      const bool outside_in = object.shape->contains(b.upper + Vec3{1, 1, 1} * (1 + scale));
+      solids.push_back({object.shape.get(), b, outside_in});
+    }
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(object.shape->part_count()));
+    rtcSetGeometryUserData(geometry, &primitives.back());
+    rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+    rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(rtc, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  /// Sends the query's ray through the tree.
+  void trace(Query& query) const {
+    rtcInitIntersectContext(&query);
+    const Ray& ray = *query.ray;
+    RTCRayHit rayhit{};
+    rayhit.ray.org_x = static_cast<float>(ray.origin.x);
+    rayhit.ray.org_y = static_cast<float>(ray.origin.y);
+    rayhit.ray.org_z = static_cast<float>(ray.origin.z);
+    rayhit.ray.dir_x = static_cast<float>(ray.direction.x);
+    rayhit.ray.dir_y = static_cast<float>(ray.direction.y);
+    rayhit.ray.dir_z = static_cast<float>(ray.direction.z);
+    rayhit.ray.tnear = 0;
+    rayhit.ray.tfar = static_cast<float>(query.within.max * (1 + 1e-6));
+    rayhit.ray.mask = ~0u;
+    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(rtc, &query, &rayhit);
+  }
+
+  struct Solid {
+    const Shape* shape;
+    Bounds bounds;
+    bool outside_in;  // contains what lies beyond its bounds, as the walls of a room do
+  };
+
+  const Scene& scene;
+  double scale;  // the scene's diagonal, m
+  std::shared_ptr<RTCDeviceTy> device = embree_device();
+  RTCScene rtc = nullptr;
+  std::vector<Primitive> primitives;  // by object; Embree holds pointers to them
+  std::vector<Solid> solids;
+};
+
+RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+RayCaster::~RayCaster() = default;
+
+const Scene& RayCaster::scene() const { return impl_->scene; }
+
+double RayCaster::epsilon() const { return 1e-7 * impl_->scale; }
+
+std::optional<SurfaceHit> RayCaster::nearest(const Ray& ray, Interval within) const {
+  Query query;
+  query.ray = &ray;
+  query.within = within;
+  query.tie = epsilon() / length(ray.direction);
+  impl_->trace(query);
+  if (!query.first) return std::nullopt;
+  SurfaceHit hit = *query.first;
+  if (query.first_light && glued(*query.first_light, hit, query.tie)) hit = *query.first_light;
+  const Primitive& primitive = impl_->primitives[hit.surface.object];
+  if (primitive.both_sides && dot(hit.normal, ray.direction) > 0) return other_side(hit);
+  return hit;
+}
+
+void RayCaster::all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit>& hits) const {
+  hits.clear();
+  Query query;
+  query.ray = &ray;
+  query.within = within;
+  query.all = &hits;
+  impl_->trace(query);
+
+  const auto facing = [&](const SurfaceHit& hit) { return dot(hit.normal, ray.direction) < 0; };
+  std::sort(hits.begin(), hits.end(), [&](const SurfaceHit& a, const SurfaceHit& b) {
+    return std::tuple(a.t, a.surface.object, a.surface.face, !facing(a)) <
+           std::tuple(b.t, b.surface.object, b.surface.face, !facing(b));
+  });
+
+  const double tie = epsilon() / length(ray.direction);
+  const auto lit = [&](const SurfaceHit& hit) {
+    return impl_->scene.objects[hit.surface.object].emits();
+  };
+  if (std::none_of(hits.begin(), hits.end(), lit)) return;
+  std::vector<SurfaceHit> lights;
+  std::copy_if(hits.begin(), hits.end(), std::back_inserter(lights), lit);
+  std::erase_if(hits, [&](const SurfaceHit& hit) {
+    return !lit(hit) && std::any_of(lights.begin(), lights.end(), [&](const SurfaceHit& light) {
+      return glued(light, hit, tie);
+    });
+  });
+}
+
+bool RayCaster::occluded(const Segment& segment) const {
+  std::uint8_t blocked = 0;
+  occluded({&segment, 1}, {&blocked, 1});
+  return blocked != 0;
+}
+
+void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const {
+  constexpr std::size_t kLanes = 16;
+  Query query;
+  rtcInitIntersectContext(&query);
+  query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (std::size_t first = 0; first < segments.size(); first += kLanes) {
+    const std::size_t n = std::min(kLanes, segments.size() - first);
+    query.segments = segments.subspan(first, n);
+    RTCRay16 rays;
+    alignas(64) std::array<int, kLanes> valid;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      valid[lane] = lane < n ? -1 : 0;
+      const Segment& segment = query.segments[std::min(lane, n - 1)];
+      const Vec3 d = segment.to - segment.from;
+      rays.org_x[lane] = static_cast<float>(segment.from.x);
+      rays.org_y[lane] = static_cast<float>(segment.from.y);
+      rays.org_z[lane] = static_cast<float>(segment.from.z);
+      rays.dir_x[lane] = static_cast<float>(d.x);
+      rays.dir_y[lane] = static_cast<float>(d.y);
+      rays.dir_z[lane] = static_cast<float>(d.z);
+      rays.tnear[lane] = 0;
+      rays.tfar[lane] = 1;
+      rays.time[lane] = 0;
+      rays.mask[lane] = ~0u;
+      rays.id[lane] = static_cast<unsigned>(lane);
+      rays.flags[lane] = 0;
+    }
+    rtcOccluded16(valid.data(), impl_->rtc, &query, &rays);
+    for (std::size_t lane = 0; lane < n; ++lane) blocked[first + lane] = rays.tfar[lane] < 0;
+  }
+}
+
+bool RayCaster::buried(const Vec3& point, const Vec3& normal) const {
+  const Vec3 p = point + normal * epsilon();
+  return std::any_of(impl_->solids.begin(), impl_->solids.end(), [&](const Impl::Solid& solid) {
+    const Bounds& b = solid.bounds;
+    const bool within = p.x >= b.lower.x && p.y >= b.lower.y && p.z >= b.lower.z &&
+                        p.x <= b.upper.x && p.y <= b.upper.y && p.z <= b.upper.z;
+    return (within || solid.outside_in) && solid.shape->contains(p);
+  });
+}
+
+}  // namespace isolux
