@@ -29,9 +29,10 @@ using TriangleId = std::uint32_t;
 
 /// The geometric rules of §3.2.2; where they conflict, the lower number holds.
 struct Rules {
-  double max_edge = 0.1;           ///< δ, m: no edge is longer (rule 1)
-  double min_area = 3.5e-4;        ///< Δ, m²: no split makes a smaller triangle (rule 2)
-  double normal_tolerance = 0.52;  ///< α_n, rad: between the corners of a triangle (rule 4)
+  double max_edge = 0.1;     ///< δ, m: no edge is longer (rule 1)
+  double min_area = 3.5e-4;  ///< Δ, m²: no split makes a smaller triangle (rule 2)
+  double normal_tolerance =
+      0.5235987755982988;  ///< α_n, rad: between the corners of a triangle (rule 4)
 };
 
 /// A point of the scene that may become a vertex (rule 3).

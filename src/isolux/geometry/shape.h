@@ -20,10 +20,10 @@ struct Ray {
 
 /// A point where a line meets a surface.
 struct Hit {
-  double t = 0;             ///< along the ray, in lengths of its direction
-  Vec3 point;               ///< on the surface, in double precision
-  Vec3 normal;              ///< unit length, pointing out of the solid
-  std::uint32_t face = 0;   ///< which smooth piece of the shape: its numbering is the shape's own
+  double t = 0;            ///< along the ray, in lengths of its direction
+  Vec3 point;              ///< on the surface, in double precision
+  Vec3 normal;             ///< unit length, pointing out of the solid
+  std::uint32_t face = 0;  ///< which smooth piece of the shape: its numbering is the shape's own
 };
 
 using Hits = std::vector<Hit>;
@@ -64,12 +64,20 @@ class Shape {
   /// Whether `point` lies strictly inside the solid; false for open surfaces.
   virtual bool contains(const Vec3& point) const = 0;
 
+  /// Whether the solid reaches to infinity, so that lines begin and end inside it: a room seen from
+  /// inside is all space but the room's air.
+  virtual bool unbounded() const { return false; }
+
+  /// Hit::face is less than this.
+  virtual std::uint32_t face_count() const { return 1; }
+
   /// Area of the surface in m², where a formula for it is known.
   virtual std::optional<double> area() const { return std::nullopt; }
 
   /// Triangles with sides no longer than about `max_edge` (m) that together have the area of the
   /// surface (each curved piece is scaled so that they do): how an emitter is cut into elements.
-  /// Nothing where the shape has no such form.
+  /// Pieces that meet at an angle share no points. Nothing where the shape has no such form.
+  /// Throws InputError where max_edge is not greater than 0 or makes more than 10⁶ triangles.
   virtual std::optional<TriangleSoup> triangulate(double max_edge) const;
 
   virtual std::size_t part_count() const { return 1; }

@@ -32,7 +32,7 @@ struct Options {
   Distribution distribution = Distribution::malley;
   int eye_grid = 32;                ///< rays of the eye pass: eye_grid², 0 for none
   double pairing_tolerance = 0.02;  ///< relative to the distance along the ray
-  int subdivisions = 3;             ///< of an emitter half hidden from a vertex
+  int subdivisions = 1;             ///< of an emitter half hidden from a vertex
   Selection selection = Selection::radiosity;
   bool refine = true;  ///< off: transfer energy over the mesh as it stands
   std::string camera;  ///< whose eye the eye pass takes; empty: the first

@@ -28,7 +28,10 @@ Refinement::Refinement(Triangulation& mesh, const RayCaster& rays, const Options
       options_(options),
       statistics_(statistics),
       mesh_rays_(mesh),
-      random_(options.seed, kStream) {}
+      random_(options.seed, kStream),
+      cos_normal_tolerance_(std::cos(mesh.rules().normal_tolerance)),
+      scene_hits_(kBatch),
+      mesh_hits_(kBatch) {}
 
 void Refinement::refine(const Shot& shot) {
   const auto corners = mesh_.triangle(shot.triangle).vertices;
@@ -64,8 +67,6 @@ void Refinement::refine_from_eye(const Camera& camera) {
 
 void Refinement::refine_along(const Vec3& origin, std::span<const Vec3> directions,
                               const Shot* shot) {
-  std::vector<std::vector<SurfaceHit>> scene_hits(kBatch);
-  std::vector<std::vector<MeshHit>> mesh_hits(kBatch);
   for (std::size_t first = 0; first < directions.size(); first += kBatch) {
     const auto batch = directions.subspan(first, std::min(kBatch, directions.size() - first));
     mesh_rays_.update();
@@ -73,15 +74,15 @@ void Refinement::refine_along(const Vec3& origin, std::span<const Vec3> directio
     parallel_for(batch.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Ray ray{origin, batch[i]};
-        rays_.all_hits(ray, {}, scene_hits[i]);
-        mesh_rays_.all_hits(ray, {}, mesh_hits[i]);
+        rays_.all_hits(ray, {}, scene_hits_[i]);
+        mesh_rays_.all_hits(ray, {}, mesh_hits_[i]);
       }
     });
     // What earlier rays of the batch have built or removed counts for the later ones.
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const Ray ray{origin, batch[i]};
       merged_.clear();
-      for (const MeshHit& hit : mesh_hits[i]) {
+      for (const MeshHit& hit : mesh_hits_[i]) {
         if (mesh_.triangle(hit.triangle).alive) merged_.push_back(hit);
       }
       const std::size_t old = merged_.size();
@@ -92,9 +93,9 @@ void Refinement::refine_along(const Vec3& origin, std::span<const Vec3> directio
         });
       }
       // Light never gets to a surface inside another solid: there is nothing to discretize.
-      std::erase_if(scene_hits[i],
+      std::erase_if(scene_hits_[i],
                     [&](const SurfaceHit& hit) { return rays_.buried(hit.point, hit.normal); });
-      compare(scene_hits[i], merged_, shot);
+      compare(scene_hits_[i], merged_, shot);
     }
     statistics_.refinement_rays += batch.size();
   }
@@ -145,10 +146,9 @@ void Refinement::refine_triangulation(const MeshHit& mesh_hit, const SurfaceHit&
                                       const Shot* shot) {
   const Triangle& triangle = mesh_.triangle(mesh_hit.triangle);
   if (!triangle.alive || triangle.on_light || triangle.area <= mesh_.rules().min_area) return;
-  const double least = std::cos(mesh_.rules().normal_tolerance);
-  const bool bent =
-      std::any_of(triangle.vertices.begin(), triangle.vertices.end(),
-                  [&](VertexId v) { return dot(mesh_.vertex(v).normal, hit.normal) < least; });
+  const bool bent = std::any_of(
+      triangle.vertices.begin(), triangle.vertices.end(),
+      [&](VertexId v) { return dot(mesh_.vertex(v).normal, hit.normal) < cos_normal_tolerance_; });
   if (!bent) return;
   mesh_.remove(mesh_hit.triangle);
   ++statistics_.removed;

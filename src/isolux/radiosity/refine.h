@@ -59,8 +59,12 @@ class Refinement {
   Statistics& statistics_;
   MeshRays mesh_rays_;
   Random random_;
-  std::vector<HitPair> pairs_;
+  double cos_normal_tolerance_;
+  // Kept between calls for their memory alone: the hits of each ray of a batch, and of one ray.
+  std::vector<std::vector<SurfaceHit>> scene_hits_;
+  std::vector<std::vector<MeshHit>> mesh_hits_;
   std::vector<MeshHit> merged_;
+  std::vector<HitPair> pairs_;
 };
 
 }  // namespace isolux

@@ -124,9 +124,7 @@ class RayCaster::Impl {
     const bool solid = object.shape->solid();
     primitives.push_back({&object, index, object.sides == Sides::both && !solid});
     if (solid) {
-      const Bounds b = object.shape->bounds();
-      const bool outside_in = object.shape->contains(b.upper + Vec3{1, 1, 1} * (1 + scale));
-      solids.push_back({object.shape.get(), b, outside_in});
+      solids.push_back({object.shape.get(), object.shape->bounds(), object.shape->unbounded()});
     }
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(object.shape->part_count()));
@@ -160,7 +158,7 @@ class RayCaster::Impl {
   struct Solid {
     const Shape* shape;
     Bounds bounds;
-    bool outside_in;  // contains what lies beyond its bounds, as the walls of a room do
+    bool unbounded;  // contains what lies beyond its bounds, as the walls of a room do
   };
 
   const Scene& scene;
@@ -264,7 +262,7 @@ bool RayCaster::buried(const Vec3& point, const Vec3& normal) const {
     const Bounds& b = solid.bounds;
     const bool within = p.x >= b.lower.x && p.y >= b.lower.y && p.z >= b.lower.z &&
                         p.x <= b.upper.x && p.y <= b.upper.y && p.z <= b.upper.z;
-    return (within || solid.outside_in) && solid.shape->contains(p);
+    return (within || solid.unbounded) && solid.shape->contains(p);
   });
 }
 

@@ -39,12 +39,12 @@ struct Object {
 /// A pinhole camera.
 struct Camera {
   std::string name;
-  Vec3 eye;             ///< m
-  Vec3 look_at;         ///< m, differs from eye
-  Vec3 up{0, 0, 1};     ///< not parallel to the view
-  double fov = 50;      ///< of the picture's height, degrees, 0 < fov < 180
-  int width = 800;      ///< pixels
-  int height = 600;     ///< pixels
+  Vec3 eye;          ///< m
+  Vec3 look_at;      ///< m, differs from eye
+  Vec3 up{0, 0, 1};  ///< not parallel to the view
+  double fov = 50;   ///< of the picture's height, degrees, 0 < fov < 180
+  int width = 800;   ///< pixels
+  int height = 600;  ///< pixels
 
   /// The ray through (x, y) in [0, 1]², from the left and from the top; unit direction.
   Ray ray(double x, double y, double aspect) const;
@@ -57,7 +57,8 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Object> objects;
   std::vector<Camera> cameras;
-  std::string source;  ///< the text it was read from, in the native format
+  std::string source;      ///< the text it was read from, in the native format
+  std::string unit = "m";  ///< the unit of the plain numbers in `source`
 
   Bounds bounds() const;
   /// The camera of that name (the first where `name` is empty). Throws InputError that lists the
@@ -67,5 +68,12 @@ struct Scene {
     return materials[objects[object].material];
   }
 };
+
+/// Area of a shape's surface in m²: by its formula, else that of its triangles; nothing where the
+/// shape has neither.
+std::optional<double> surface_area(const Shape& shape);
+
+/// The luminous flux that an object emits, lm; 0 for all but lights.
+double luminous_flux(const Object& object);
 
 }  // namespace isolux

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "isolux/geometry/shape.h"
+
+namespace isolux {
+
+enum class CsgOperation { unite, intersect, subtract };
+
+/// Two solids made one: a ∪ b, a ∩ b or a \ b (Roth 1982). Its faces are those of `a`, then those
+/// of `b` (numbered on from a's); the faces of what is subtracted look the other way.
+///
+/// Where boundaries coincide (within 1e-11 of the size of the solid and of the distance from the
+/// ray's origin), a line passes both at once: walls thinner than that vanish, and hits there are
+/// a's where both serve.
+class Csg final : public Shape {
+ public:
+  /// Throws InputError where a or b is not solid, or the intersection is empty by its bounds.
+  Csg(CsgOperation operation, std::shared_ptr<const Shape> a, std::shared_ptr<const Shape> b);
+
+  /// The bounds of the surface; not the tightest where curved parts are cut off.
+  Bounds bounds() const override { return bounds_; }
+  void intersect(const Ray& ray, Hits& hits) const override;
+  bool solid() const override { return true; }
+  bool contains(const Vec3& point) const override;
+  bool unbounded() const override;
+  std::uint32_t face_count() const override { return a_->face_count() + b_->face_count(); }
+
+ private:
+  bool combine(bool in_a, bool in_b) const;
+
+  CsgOperation operation_;
+  std::shared_ptr<const Shape> a_, b_;
+  Bounds bounds_;
+};
+
+}  // namespace isolux

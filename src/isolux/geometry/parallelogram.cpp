@@ -1,0 +1,55 @@
+#include "isolux/geometry/parallelogram.h"
+
+#include "isolux/core/error.h"
+#include "isolux/geometry/require.h"
+#include "isolux/geometry/tessellation.h"
+
+namespace isolux {
+
+Parallelogram::Parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v)
+    : corner_(corner), u_(u), v_(v) {
+  require_point(corner, "corner");
+  require_direction(u, "u");
+  require_direction(v, "v");
+  const Vec3 n = cross(u, v);
+  if (!(length(n) > 1e-12 * length(u) * length(v))) {
+    throw InputError("u and v: must not be parallel; they span no area");
+  }
+  normal_ = normalized(n);
+  const double nn = length_squared(n);
+  dual_u_ = cross(v, n) / nn;
+  dual_v_ = cross(n, u) / nn;
+}
+
+Bounds Parallelogram::bounds() const {
+  Bounds box;
+  for (const Vec3& p : {corner_, corner_ + u_, corner_ + v_, corner_ + u_ + v_}) box.include(p);
+  return box;
+}
+
+std::optional<PlaneHit> Parallelogram::hit(const Ray& ray) const {
+  constexpr double kSlack = 1e-13;  // rounding at an edge shared with another shape
+  const auto h = intersect_plane(ray, corner_, normal_);
+  if (!h) return std::nullopt;
+  const double a = dot(dual_u_, h->point - corner_), b = dot(dual_v_, h->point - corner_);
+  if (a < -kSlack || a > 1 + kSlack || b < -kSlack || b > 1 + kSlack) return std::nullopt;
+  return h;
+}
+
+void Parallelogram::intersect(const Ray& ray, Hits& hits) const {
+  if (const auto h = hit(ray)) hits.push_back({h->t, h->point, normal_, 0});
+}
+
+bool Parallelogram::occludes(const Ray& ray, double t_min, double t_max) const {
+  const auto h = hit(ray);
+  return h && h->t > t_min && h->t < t_max;
+}
+
+std::optional<double> Parallelogram::area() const { return length(cross(u_, v_)); }
+
+std::optional<TriangleSoup> Parallelogram::triangulate(double max_edge) const {
+  return grid(piece_count(length(u_), max_edge), piece_count(length(v_), max_edge), false,
+              [&](double a, double b) { return corner_ + u_ * a + v_ * b; });
+}
+
+}  // namespace isolux

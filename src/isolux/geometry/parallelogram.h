@@ -1,0 +1,30 @@
+#pragma once
+
+#include "isolux/geometry/plane.h"
+
+namespace isolux {
+
+/// The parallelogram corner + a u + b v, 0 ≤ a, b ≤ 1 (its edges included, so that a ray can't pass
+/// between two that share one); u and v in m, not parallel. Its normal is u × v. One face.
+class Parallelogram final : public Shape {
+ public:
+  Parallelogram(const Vec3& corner, const Vec3& u, const Vec3& v);
+
+  Bounds bounds() const override;
+  void intersect(const Ray& ray, Hits& hits) const override;
+  bool occludes(const Ray& ray, double t_min, double t_max) const override;
+  bool solid() const override { return false; }
+  bool contains(const Vec3&) const override { return false; }
+  std::optional<double> area() const override;
+  /// ⌈|u| / max_edge⌉ × ⌈|v| / max_edge⌉ cells of two triangles.
+  std::optional<TriangleSoup> triangulate(double max_edge) const override;
+
+ private:
+  std::optional<PlaneHit> hit(const Ray& ray) const;
+
+  Vec3 corner_, u_, v_;
+  Vec3 normal_;
+  Vec3 dual_u_, dual_v_;  ///< a = dual_u · (p − corner), b likewise; 1/m
+};
+
+}  // namespace isolux

@@ -1,0 +1,135 @@
+#include "isolux/geometry/torus.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "isolux/core/error.h"
+#include "isolux/geometry/disk.h"
+#include "isolux/geometry/require.h"
+
+namespace isolux {
+
+// Notation (local frame, lengths in units of R + r)
+//   R, r        major and minor radius
+//   o + s d     the line, o its point nearest to the centre, |d| = 1
+//   q(s)        = (|p|² + R² − r²)² − 4 R² (x² + y²), p = o + s d: s⁴ + c2 s² + c1 s + c0
+//   g(p)        = (√(x² + y²) − R)² + z² − r²: same zeros as q, better conditioned for thin tori
+// Between two neighbouring zeros of q' the quartic is monotonic, so that a change of sign brackets
+// exactly one root, and the roots come in pairs of entering and leaving.
+
+namespace {
+
+/// The root of f between a and b, where it changes sign, by Newton's method kept inside the
+/// bracket by bisection. f(s) returns the value and the derivative.
+template <typename F>
+double bracketed_root(const F& f, double a, double b) {
+  const bool rising = f(a).value < 0;
+  double s = 0.5 * (a + b);
+  for (int i = 0; i < 200; ++i) {
+    const auto [value, slope] = f(s);
+    if (value == 0) return s;
+    ((value < 0) == rising ? a : b) = s;
+    double next = s - value / slope;
+    if (!(next > a && next < b)) next = 0.5 * (a + b);
+    if (std::abs(next - s) <= 1e-16 || next == a || next == b) return next;
+    s = next;
+  }
+  return s;
+}
+
+struct Value {
+  double value, slope;
+};
+
+/// The ends of the intervals on which s⁴ + c2 s² + c1 s + c0 is monotonic within [−end, end].
+struct Pieces {
+  std::array<double, 5> ends;
+  int count = 0;
+
+  Pieces(double c2, double c1, double end) {
+    const auto derivative = [=](double s) {
+      return Value{(4 * s * s + 2 * c2) * s + c1, 12 * s * s + 2 * c2};
+    };
+    const double turn = c2 < 0 ? std::min(end, std::sqrt(-c2 / 6)) : 0;
+    add(-end);
+    const std::array<double, 4> steps = {-end, -turn, turn, end};
+    for (int i = 0; i < 3; ++i) {
+      const double a = steps[i], b = steps[i + 1];
+      if (a < b && (derivative(a).value < 0) != (derivative(b).value < 0)) {
+        add(bracketed_root(derivative, a, b));
+      }
+    }
+    add(end);
+  }
+  void add(double s) { ends[count++] = s; }
+};
+
+}  // namespace
+
+Torus::Torus(const Vec3& center, const Vec3& axis, double major, double minor)
+    : center_(center), frame_(normalized(axis)), major_(major), minor_(minor) {
+  require_point(center, "center");
+  require_direction(axis, "axis");
+  require_length(major, "major_radius");
+  require_length(minor, "minor_radius");
+  if (!(minor < major)) {
+    throw InputError(fmt::format(
+        "minor_radius: must be less than major_radius, lest the torus cut itself, but {} >= {}",
+        minor, major));
+  }
+}
+
+Bounds Torus::bounds() const {
+  const Vec3 half = circle_extent(frame_.n, major_) + Vec3{1, 1, 1} * minor_;
+  return {center_ - half, center_ + half};
+}
+
+void Torus::intersect(const Ray& ray, Hits& hits) const {
+  const double unit = major_ + minor_, speed = length(ray.direction);
+  const double R = major_ / unit, r = minor_ / unit;
+  const Vec3 direction = ray.direction / speed;
+  const double shift = dot(center_ - ray.origin, direction);
+  const auto to_local = [this](const Vec3& v) {
+    return Vec3{dot(v, frame_.u), dot(v, frame_.v), dot(v, frame_.n)};
+  };
+  const Vec3 o = to_local(ray.origin + direction * shift - center_) / unit;
+  const Vec3 d = to_local(direction);
+  const double oo = length_squared(o);
+  if (!(oo < 1)) return;  // passes the sphere around the torus
+
+  const double k = oo + R * R - r * r;
+  const double c2 = 2 * k - 4 * R * R * (d.x * d.x + d.y * d.y);
+  const double c1 = -8 * R * R * (o.x * d.x + o.y * d.y);
+  const auto g = [&](double s) {
+    const Vec3 p = o + d * s;
+    const double ring = std::hypot(p.x, p.y);
+    const double away = ring - R;
+    const double ring_slope = ring > 0 ? (p.x * d.x + p.y * d.y) / ring : 0;
+    return Value{away * away + (p.z - r) * (p.z + r), 2 * (away * ring_slope + p.z * d.z)};
+  };
+  const Pieces pieces(c2, c1, 1.0000001);
+  for (int i = 0; i + 1 < pieces.count; ++i) {
+    const double a = pieces.ends[i], b = pieces.ends[i + 1];
+    if ((g(a).value < 0) == (g(b).value < 0)) continue;
+    const double s = bracketed_root(g, a, b);
+    const Vec3 p = o + d * s;
+    const double ring = std::hypot(p.x, p.y);
+    const Vec3 on_circle = Vec3{p.x, p.y, 0} * (R / ring);
+    const Vec3 normal = frame_.to_world(normalized(p - on_circle));
+    const Vec3 point = center_ + frame_.to_world(on_circle * unit) + normal * minor_;
+    hits.push_back({(shift + s * unit) / speed, point, normal, 0});
+  }
+}
+
+bool Torus::contains(const Vec3& point) const {
+  const Vec3 p = point - center_;
+  const double away = std::hypot(dot(p, frame_.u), dot(p, frame_.v)) - major_;
+  return std::hypot(away, dot(p, frame_.n)) < minor_;
+}
+
+std::optional<double> Torus::area() const {
+  return 4 * std::numbers::pi * std::numbers::pi * major_ * minor_;
+}
+
+}  // namespace isolux

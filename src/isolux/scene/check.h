@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "isolux/scene/scene.h"
+
+namespace isolux {
+
+/// What was understood of an object.
+struct ObjectReport {
+  std::string name;
+  std::string material;
+  std::optional<double> area;  ///< m²; nothing where it has no formula (CSG)
+  double flux = 0;             ///< emitted, lm
+  Bounds bounds;               ///< m
+};
+
+/// What was understood of a scene, and what looks doubtful in it.
+struct SceneReport {
+  std::string name;
+  std::string unit;  ///< of plain numbers in the file
+  std::vector<ObjectReport> objects;
+  std::size_t materials = 0;
+  std::size_t cameras = 0;
+  std::size_t lights = 0;
+  double flux = 0;                    ///< of all lights, lm
+  Bounds bounds;                      ///< m
+  std::vector<std::string> warnings;  ///< each one line
+};
+
+/// Sums up the scene and looks for what is allowed but probably not meant. Casts no rays.
+SceneReport check_scene(const Scene& scene);
+
+}  // namespace isolux

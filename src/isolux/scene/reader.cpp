@@ -1,0 +1,156 @@
+#include "isolux/scene/reader.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <new>
+
+#include "isolux/core/file.h"
+#include "isolux/scene/length.h"
+#include "isolux/scene/light_reader.h"
+#include "isolux/scene/shape_reader.h"
+#include "isolux/scene/spelling.h"
+#include "isolux/scene/value.h"
+
+namespace isolux {
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{64} << 20;  ///< bytes
+constexpr int kLargestPicture = 32768;                       ///< pixels a side
+
+using MaterialIndex = std::map<std::string, std::uint32_t, std::less<>>;
+
+/// Before all else, since a later version may have other keys.
+void check_version(const Value& root) {
+  const std::optional<Value> version = root.find("isolux");
+  if (!version) root.fail("not an isolux scene: write 'isolux: 1' on its first line");
+  if (version->number() != 1) {
+    version->fail("this version of the format is not known: only 'isolux: 1' is");
+  }
+}
+
+Material read_material(const Value& name, const Value& value) {
+  const Fields fields(value, {"reflectance"});
+  const Value reflectance = fields.require("reflectance");
+  const Rgb color = reflectance.color();
+  if (!(max_channel(color) < 1)) {
+    reflectance.fail(
+        fmt::format("'reflectance' must be less than 1, not {}: give the share of the "
+                    "light that is reflected, such as 0.7",
+                    max_channel(color)));
+  }
+  return {name.text(), color};
+}
+
+std::uint32_t find_material(const Value& value, const MaterialIndex& materials) {
+  const std::string name = value.text();
+  const auto found = materials.find(name);
+  if (found != materials.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, index] : materials) names.push_back(known);
+  value.fail(fmt::format("unknown material {}: {}", in_quotes(name), suggestion(name, names)));
+}
+
+Sides read_sides(const Fields& fields, const Shape& shape) {
+  const std::optional<Value> value = fields.find("sides");
+  if (!value) return shape.solid() ? Sides::front : Sides::both;
+  const Sides sides = value->choice({"front", "both"}) == 0 ? Sides::front : Sides::both;
+  if (sides == Sides::both && shape.solid()) {
+    value->fail("a solid has only its outer side: remove 'sides', or open the shape");
+  }
+  return sides;
+}
+
+Object read_object(const Value& value, std::size_t number, const MaterialIndex& materials) {
+  const Fields fields(value, {"name", "shape", "material", "sides", "transform", "emission"});
+  const ReadShape read = read_shape(fields.require("shape"));
+  Object object;
+  const std::optional<Value> name = fields.find("name");
+  object.name = name ? name->text() : fmt::format("{} {}", read.kind, number);
+  object.shape = transformed(read.shape, fields);
+  object.material = find_material(fields.require("material"), materials);
+  object.sides = read_sides(fields, *object.shape);
+  if (const auto emission = fields.find("emission")) {
+    object.exitance = read_emission(*emission, *object.shape);
+  }
+  return object;
+}
+
+Camera read_camera(const Value& name, const Value& value) {
+  const Fields fields(value, {"eye", "look_at", "up", "fov", "size"});
+  Camera camera;
+  camera.name = name.text();
+  camera.eye = fields.require("eye").point();
+  const Value look_at = fields.require("look_at");
+  camera.look_at = look_at.point();
+  const Vec3 view = camera.look_at - camera.eye;
+  if (!(length(view) > 1e-9)) look_at.fail("'look_at' must differ from 'eye'");
+  const std::optional<Value> up = fields.find("up");
+  if (up) camera.up = up->direction();
+  if (length(cross(normalized(view), camera.up)) < 1e-6) {
+    (up ? *up : look_at)
+        .fail(
+            "'up' must not run along the view: for one straight up or down, use "
+            "'up: y'");
+  }
+  if (const auto fov = fields.find("fov")) {
+    camera.fov = fov->number();
+    if (!(camera.fov > 0 && camera.fov < 180)) {
+      fov->fail("'fov' must lie between 0 and 180 degrees, such as 50");
+    }
+  }
+  if (const auto size = fields.find("size")) {
+    const std::vector<Value> sides = size->items(2, 2);
+    camera.width = sides[0].integer(1, kLargestPicture);
+    camera.height = sides[1].integer(1, kLargestPicture);
+  }
+  return camera;
+}
+
+Scene read_document(const YamlDocument& document) {
+  ReadingContext context{document.file};
+  const Value root(context, *document.root, "scene");
+  check_version(root);
+  const Fields fields(root, {"isolux", "name", "unit", "materials", "objects", "cameras"});
+  Scene scene;
+  if (const auto name = fields.find("name")) scene.name = name->text();
+  if (const auto unit = fields.find("unit")) {
+    scene.unit = length_units()[unit->choice(length_units())];
+    context.metres_per_unit = *metres_per(scene.unit);
+  }
+  MaterialIndex materials;
+  for (const auto& [name, value] : fields.require("materials").entries()) {
+    materials.emplace(name.text(), static_cast<std::uint32_t>(scene.materials.size()));
+    scene.materials.push_back(read_material(name, value));
+  }
+  const Value objects = fields.require("objects");
+  for (const Value& object : objects.items()) {
+    scene.objects.push_back(
+        read_object(object.labelled("object"), scene.objects.size() + 1, materials));
+  }
+  if (scene.objects.empty()) objects.fail("the scene is empty: give at least one object");
+  if (const auto cameras = fields.find("cameras")) {
+    for (const auto& [name, value] : cameras->entries()) {
+      scene.cameras.push_back(read_camera(name, value));
+    }
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& text, const std::string& file) {
+  try {
+    Scene scene = read_document(parse_yaml(text, file));
+    scene.source = text;
+    return scene;
+  } catch (const std::bad_alloc&) {
+    throw InputError({file}, "the scene needs more memory than there is: make it smaller");
+  }
+}
+
+Scene load_scene(const std::filesystem::path& path) {
+  return read_scene(read_file(path, kLargestFile), path.string());
+}
+
+}  // namespace isolux

@@ -1,0 +1,242 @@
+#include "isolux/scene/shape_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "isolux/geometry/box.h"
+#include "isolux/geometry/complement.h"
+#include "isolux/geometry/csg.h"
+#include "isolux/geometry/cylinder.h"
+#include "isolux/geometry/disk.h"
+#include "isolux/geometry/frustum.h"
+#include "isolux/geometry/instance.h"
+#include "isolux/geometry/parallelogram.h"
+#include "isolux/geometry/polygon.h"
+#include "isolux/geometry/sphere.h"
+#include "isolux/geometry/torus.h"
+#include "isolux/geometry/triangle_mesh.h"
+#include "isolux/scene/spelling.h"
+#include "isolux/scene/transform_reader.h"
+
+namespace isolux {
+namespace {
+
+using ShapePtr = std::shared_ptr<const Shape>;
+
+constexpr int kDeepestNesting = 100;  ///< of shapes within shapes
+
+/// Makes a shape; what its constructor has against the numbers is reported at `place`.
+template <typename T, typename... Numbers>
+ShapePtr make(const Value& place, Numbers&&... numbers) {
+  try {
+    return std::make_shared<T>(std::forward<Numbers>(numbers)...);
+  } catch (const InputError& error) {
+    place.fail(fmt::format("{} can't be made: {}", in_quotes(place.label()), error.what()));
+  }
+}
+
+bool read_flag(const Fields& fields, std::string_view key) {
+  const std::optional<Value> value = fields.find(key);
+  return value && value->flag();
+}
+
+std::vector<Vec3> read_points(const Value& list) {
+  std::vector<Vec3> points;
+  for (const Value& point : list.items(3)) points.push_back(point.point());
+  return points;
+}
+
+ShapePtr read_sphere(const Value& value) {
+  const Fields fields(value, {"center", "radius"});
+  return make<Sphere>(value, fields.require("center").point(),
+                      fields.require("radius").positive_length());
+}
+
+struct Axis {
+  Vec3 from, to;
+};
+
+Axis read_axis(const Fields& fields) {
+  const Value to = fields.require("to");
+  const Axis axis{fields.require("from").point(), to.point()};
+  if (axis.from == axis.to) to.fail("'to' must differ from 'from'");
+  return axis;
+}
+
+ShapePtr read_cylinder(const Value& value) {
+  const Fields fields(value, {"from", "to", "radius", "open"});
+  const auto [from, to] = read_axis(fields);
+  return make<Cylinder>(value, from, to, fields.require("radius").positive_length(),
+                        !read_flag(fields, "open"));
+}
+
+ShapePtr read_cone(const Value& value) {
+  const Fields fields(value, {"from", "to", "radii", "open"});
+  const auto [from, to] = read_axis(fields);
+  const Value list = fields.require("radii");
+  const std::vector<Value> radii = list.items(2, 2);
+  const double first = radii[0].length(), second = radii[1].length();
+  if (!(first >= 0 && second >= 0 && first + second > 0)) {
+    list.fail("'radii' must not be negative, nor both 0: give the radius at each end");
+  }
+  return make<Frustum>(value, from, to, first, second, !read_flag(fields, "open"));
+}
+
+ShapePtr read_disk(const Value& value) {
+  const Fields fields(value, {"center", "normal", "radius", "inner_radius"});
+  const std::optional<Value> inner = fields.find("inner_radius");
+  return make<Disk>(value, fields.require("center").point(), fields.require("normal").direction(),
+                    fields.require("radius").positive_length(),
+                    inner ? inner->positive_length() : 0.0);
+}
+
+ShapePtr read_torus(const Value& value) {
+  const Fields fields(value, {"center", "axis", "major_radius", "minor_radius"});
+  return make<Torus>(value, fields.require("center").point(), fields.require("axis").direction(),
+                     fields.require("major_radius").positive_length(),
+                     fields.require("minor_radius").positive_length());
+}
+
+ShapePtr read_box(const Value& value) {
+  const Fields fields(value, {"lower", "upper", "inward"});
+  const ShapePtr box =
+      make<Box>(value, fields.require("lower").point(), fields.require("upper").point());
+  return read_flag(fields, "inward") ? make<Complement>(value, box) : box;
+}
+
+ShapePtr read_parallelogram(const Value& value) {
+  const Fields fields(value, {"corner", "u", "v"});
+  return make<Parallelogram>(value, fields.require("corner").point(), fields.require("u").point(),
+                             fields.require("v").point());
+}
+
+ShapePtr read_polygon(const Value& value) {
+  const Fields fields(value, {"points"});
+  return make<Polygon>(value, read_points(fields.require("points")));
+}
+
+ShapePtr read_mesh(const Value& value) {
+  const Fields fields(value, {"points", "triangles"});
+  TriangleSoup soup;
+  soup.points = read_points(fields.require("points"));
+  const int last = static_cast<int>(soup.points.size()) - 1;
+  for (const Value& triangle : fields.require("triangles").items(1)) {
+    const std::vector<Value> corners = triangle.items(3, 3);
+    auto& indices = soup.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      indices[i] = static_cast<std::uint32_t>(corners[i].integer(0, last));
+    }
+  }
+  return make<TriangleMesh>(value, std::move(soup.points), std::move(soup.triangles));
+}
+
+ReadShape read_nested(const Value& value, int depth);
+
+/// The shapes that a CSG operation joins.
+std::vector<ShapePtr> read_solids(const Value& value, int depth) {
+  std::vector<ShapePtr> solids;
+  for (const Value& operand : value.items(2)) {
+    const ReadShape read = read_nested(operand, depth + 1);
+    if (!read.shape->solid()) {
+      operand.fail(fmt::format("{} takes closed shapes only, and this {} is open",
+                               in_quotes(value.label()), read.kind));
+    }
+    solids.push_back(read.shape);
+  }
+  return solids;
+}
+
+/// Joins the solids by halves, so that a ray's way down to any of n solids is log2 n steps.
+ShapePtr join(const Value& value, CsgOperation operation, std::span<const ShapePtr> solids) {
+  if (solids.size() == 1) return solids.front();
+  const std::size_t half = (solids.size() + 1) / 2;
+  return make<Csg>(value, operation, join(value, operation, solids.first(half)),
+                   join(value, operation, solids.subspan(half)));
+}
+
+ShapePtr read_union(const Value& value, int depth) {
+  return join(value, CsgOperation::unite, read_solids(value, depth));
+}
+
+ShapePtr read_intersection(const Value& value, int depth) {
+  return join(value, CsgOperation::intersect, read_solids(value, depth));
+}
+
+/// The first without all the others.
+ShapePtr read_difference(const Value& value, int depth) {
+  const std::vector<ShapePtr> solids = read_solids(value, depth);
+  return make<Csg>(value, CsgOperation::subtract, solids.front(),
+                   join(value, CsgOperation::unite, std::span(solids).subspan(1)));
+}
+
+/// A shape that holds no others.
+template <ShapePtr (*read)(const Value&)>
+ShapePtr plain(const Value& value, int /*depth*/) {
+  return read(value);
+}
+
+struct ShapeKind {
+  std::string_view key;
+  ShapePtr (*read)(const Value& value, int depth);
+};
+
+constexpr ShapeKind kShapeKinds[] = {
+    {"sphere", plain<read_sphere>},
+    {"cylinder", plain<read_cylinder>},
+    {"cone", plain<read_cone>},
+    {"disk", plain<read_disk>},
+    {"torus", plain<read_torus>},
+    {"box", plain<read_box>},
+    {"parallelogram", plain<read_parallelogram>},
+    {"polygon", plain<read_polygon>},
+    {"mesh", plain<read_mesh>},
+    {"union", read_union},
+    {"intersection", read_intersection},
+    {"difference", read_difference},
+};
+
+ReadShape read_nested(const Value& value, int depth) {
+  if (depth > kDeepestNesting) {
+    value.fail(
+        fmt::format("shapes nested more than {} deep: a union, intersection or difference "
+                    "takes any number, so list them side by side",
+                    kDeepestNesting));
+  }
+  std::vector<std::string_view> known;
+  for (const ShapeKind& kind : kShapeKinds) known.push_back(kind.key);
+  known.push_back("transform");
+  const Fields fields(value, known);
+  ReadShape read;
+  for (const auto& [key, inner] : value.entries()) {
+    if (key.label() == "transform") continue;
+    if (read.shape) {
+      key.fail(
+          fmt::format("{} is a second shape beside {}: an object has one, so make another "
+                      "object or a union",
+                      in_quotes(key.label()), in_quotes(read.kind)));
+    }
+    const auto kind = std::find_if(std::begin(kShapeKinds), std::end(kShapeKinds),
+                                   [&](const ShapeKind& k) { return k.key == key.label(); });
+    read = {kind->key, kind->read(inner, depth)};
+  }
+  if (!read.shape) {
+    known.pop_back();
+    value.fail(fmt::format("no shape here: use one of {}", enumerated(known)));
+  }
+  read.shape = transformed(read.shape, fields);
+  return read;
+}
+
+}  // namespace
+
+ReadShape read_shape(const Value& value) { return read_nested(value, 1); }
+
+ShapePtr transformed(ShapePtr shape, const Fields& fields) {
+  const std::optional<Value> steps = fields.find("transform");
+  if (!steps) return shape;
+  return make<Instance>(*steps, std::move(shape), read_transform(*steps));
+}
+
+}  // namespace isolux

@@ -1,0 +1,313 @@
+"""The program as its user meets it: what it prints, writes and returns."""
+
+import csv
+import json
+import os
+import pty
+import re
+import select
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ["ISOLUX_PROGRAM"]
+ROOM = PROJECT / "examples" / "lalonde1993" / "room.yaml"
+COARSE = ["--rays", "8", "--eye-rays", "8", "--max-edge", "0.25"]
+SHORT = [*COARSE, "--iterations", "4"]
+FLOOR = "x,y,z,nx,ny,nz\n0.3,0.3,0,0,0,1\n0.7,0.3,0.001,0,0,1\n"
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="isolux_app_")
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run(
+            [PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True,
+            text=True, timeout=600, cwd=self.folder, **options)
+
+    def succeed(self, *arguments):
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def fail_with(self, pattern, *arguments):
+        """The program refuses: exit 1, one line that matches, no stdout, nothing written."""
+        before = self.listing()
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertRegex(result.stderr, "^isolux: " + pattern)
+        self.assertEqual(self.listing(), before)
+
+    def solve(self, name, *arguments):
+        path = self.folder / name
+        self.succeed("solve", ROOM, "-o", path, "--quiet", *SHORT, *arguments)
+        return path
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    def listing(self):
+        return {path.name: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
+
+
+class Usage(ProgramTest):
+    COMMANDS = ["solve", "render", "measure", "info", "check"]
+
+    def test_help_fits_a_screen(self):
+        text = self.succeed("--help").stdout
+        self.assertLessEqual(len(text.splitlines()), 24, text)
+        for command in self.COMMANDS:
+            self.assertIn(command, text)
+
+    def test_help_is_80_columns_wide(self):
+        for command in [[], *([c] for c in self.COMMANDS)]:
+            result = self.succeed(*command, "--help")
+            self.assertEqual(result.stderr, "")
+            self.assertLessEqual(max(map(len, result.stdout.splitlines())), 80, result.stdout)
+
+    def test_solve_help_has_the_symbols_of_the_paper(self):
+        text = self.succeed("solve", "--help").stdout
+        for symbol in ["δ", "Δ", "α_n", "α_s"]:
+            self.assertIn(symbol, text)
+
+    def test_version(self):
+        self.assertRegex(self.succeed("--version").stdout, r"^isolux \d+\.\d+\.\d+\n$")
+
+    def test_wrong_usage_is_one_line(self):
+        output = ["-o", "a.glb"]
+        for arguments in [
+            [], ["nonsense"], ["--nonsense"], ["solve"], ["solve", ROOM], ["solve", *output],
+            ["render", "a.glb"], ["measure", "a.glb"], ["info"], ["check"],
+            ["solve", ROOM, *output, "--nonsense"], ["solve", ROOM, ROOM, *output],
+        ]:
+            with self.subTest(arguments=arguments):
+                self.fail_with(".+", *arguments)
+
+    def test_numbers_are_read_strictly(self):
+        for option, value in [
+            ("--max-edge", "nan"), ("--max-edge", "inf"), ("--max-edge", "0"),
+            ("--max-edge", "0.1m"), ("--max-edge", ""), ("--min-area", "-1"),
+            ("--normal-tolerance", "180"), ("--contrast", "1e999"), ("--iterations", "1.5"),
+            ("--iterations", "99999999999999999999"), ("--seed", "0x10"), ("--threads", "0"),
+            ("--threads", "1025"), ("--rays", "1000000"), ("--selection", "bright"),
+            ("--preset", "fast"), ("--distribution", "1"),
+        ]:
+            with self.subTest(option=option, value=value):
+                self.fail_with(f".*{option}", "solve", ROOM, "-o", "a.glb", f"{option}={value}")
+
+    def test_an_unknown_camera_is_told_the_known_ones(self):
+        self.fail_with(".*nobody", "solve", ROOM, "-o", "a.glb", "--camera", "nobody", *SHORT)
+
+
+class BadScenes(ProgramTest):
+    def test_each_gives_its_place_and_writes_nothing(self):
+        scenes = sorted((PROJECT / "tests" / "scene" / "bad").glob("*.yaml"))
+        self.assertGreaterEqual(len(scenes), 20)
+        for scene in scenes:
+            with self.subTest(scene=scene.name):
+                place = re.escape(str(scene)) + r":\d+:\d+: .+"
+                self.fail_with(place, "solve", scene, "-o", "a.glb", "--stats", "a.json")
+                self.fail_with(place, "check", scene)
+
+    def test_a_bad_scene_leaves_the_old_solution(self):
+        self.write("a.glb", "old")
+        self.fail_with(".+", "solve", self.write("bad.yaml", "isolux: 2\n"), "-o", "a.glb")
+
+    def test_no_scene(self):
+        for scene in ["none.yaml", self.folder, self.write("binary.yaml", bytes(range(256)))]:
+            with self.subTest(scene=scene):
+                self.fail_with(".+", "solve", scene, "-o", "a.glb")
+
+
+class BadFiles(ProgramTest):
+    @staticmethod
+    def foreign_glb():
+        text = b'{"asset":{"version":"2.0"}}'.ljust(28)
+        return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text), len(text), 0x4E4F534A) + text
+
+    def refuse(self, path):
+        points = self.write("points.csv", FLOOR)
+        place = re.escape(str(path)) + ": .+"
+        self.fail_with(place, "info", path)
+        self.fail_with(place, "render", path, "-o", "a.png")
+        self.fail_with(place, "measure", path, "--points", points, "-o", "a.csv")
+
+    def test_truncated_and_foreign_solutions(self):
+        whole = self.solve("whole.glb").read_bytes()
+        size = len(whole)
+        for length in [0, 3, 12, 19, 20, 100, size // 3, size // 2, size - 4, size - 1]:
+            with self.subTest(length=length):
+                self.refuse(self.write("cut.glb", whole[:length]))
+        for name, content in [
+            ("foreign.glb", self.foreign_glb()), ("text.glb", "isolux: 1\n"),
+            ("longer.glb", whole + b"\0\0\0\0"), ("random.glb", os.urandom(1000)),
+        ]:
+            with self.subTest(name=name):
+                self.refuse(self.write(name, content))
+        self.refuse(self.folder / "none.glb")
+        self.refuse(self.folder)
+
+    def test_bad_points(self):
+        solution = self.solve("a.glb")
+        header = "x,y,z,nx,ny,nz\n"
+        for name, content in [
+            ("empty", ""), ("no_normal", "x,y,z\n0,0,0\n"), ("short", header + "0,0,0,0,0\n"),
+            ("text", header + "0,0,zero,0,0,1\n"), ("nan", header + "0,0,nan,0,0,1\n"),
+            ("no_direction", header + "0,0,0,0,0,0\n"), ("binary", bytes(range(256))),
+        ]:
+            with self.subTest(name=name):
+                points = self.write("points.csv", content)
+                place = re.escape(str(points)) + ":.+"
+                self.fail_with(place, "measure", solution, "--points", points, "-o", "out.csv")
+
+
+class Outputs(ProgramTest):
+    """Outputs are checked before the work: here the input does not even exist."""
+
+    def test_wrong_extension(self):
+        self.fail_with(r"a\.txt: .*\.glb", "solve", "none", "-o", "a.txt")
+        self.fail_with(r"a\.txt: .*\.json", "solve", "none", "-o", "a.glb", "--stats", "a.txt")
+        self.fail_with(r"a\.jpg: .*\.png", "render", "none", "-o", "a.jpg")
+
+    def test_no_such_folder(self):
+        self.fail_with(r"no/a\.glb: .*folder 'no'", "solve", "none", "-o", "no/a.glb")
+        self.fail_with(r"no/a\.json: ", "solve", "none", "-o", "a.glb", "--stats", "no/a.json")
+        self.fail_with(r"no/a\.png: ", "render", "none", "-o", "no/a.png")
+        self.fail_with(r"no/a\.csv: ", "measure", "none", "--points", "none", "-o", "no/a.csv")
+
+    def test_a_folder_in_the_way(self):
+        (self.folder / "a.glb").mkdir()
+        self.fail_with(r"a\.glb: .*not a file", "solve", "none", "-o", "a.glb")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_a_closed_folder(self):
+        closed = self.folder / "closed"
+        closed.mkdir(mode=0o555)
+        self.fail_with(r"closed/a\.glb: ", "solve", "none", "-o", "closed/a.glb")
+
+    def test_measured_points_are_not_overwritten(self):
+        points = self.write("points.csv", FLOOR)
+        self.fail_with(".*input", "measure", "none", "--points", points, "-o", points)
+
+    def test_full_stdout_is_an_error(self):
+        solution = self.solve("a.glb")
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "info", solution], stdout=full,
+                                    stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("standard output", result.stderr)
+
+
+class Work(ProgramTest):
+    def test_from_scene_to_picture_and_figures(self):
+        self.assertIn("m²", self.succeed("check", ROOM).stdout)
+        solution = self.folder / "room.glb"
+        result = self.succeed("solve", ROOM, "-o", solution, "--stats", "stats.json", *SHORT)
+        self.assertRegex(result.stderr, r"^isolux: .*room\.glb: 4 iterations, .*\n$")
+        statistics = json.loads((self.folder / "stats.json").read_text())
+        self.assertEqual(statistics["iterations"], 4)
+        self.assertGreater(statistics["triangles"], 0)
+        self.assertGreater(statistics["cpu_seconds"], 0)
+        self.assertLess(statistics["unshot_flux"], statistics["emitted_flux"])
+
+        for arguments in [[], ["--mesh"]]:
+            self.succeed("render", solution, "-o", "a.png", "--size", "32x24", *arguments)
+            picture = (self.folder / "a.png").read_bytes()
+            self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(struct.unpack(">II", picture[16:24]), (32, 24))
+        self.succeed("render", solution, "-o", "a.exr", "--size", "32x24")
+        self.assertEqual((self.folder / "a.exr").read_bytes()[:4], b"\x76\x2f\x31\x01")
+
+        points = self.write("points.csv", FLOOR)
+        to_stdout = self.succeed("measure", solution, "--points", points).stdout
+        self.succeed("measure", solution, "--points", points, "-o", "out.csv")
+        self.assertEqual((self.folder / "out.csv").read_text(), to_stdout)
+        rows = list(csv.DictReader(to_stdout.splitlines()))
+        self.assertEqual(list(rows[0]), "x y z nx ny nz Er Eg Eb E".split())
+        self.assertEqual(len(rows), 2)
+        for row in rows:
+            self.assertGreater(float(row["E"]), 0)
+
+        text = self.succeed("info", solution).stdout
+        for word in ["isolux 0.", "4 iterations", f"{statistics['triangles']} triangles", "lx"]:
+            self.assertIn(word, text)
+        self.assertEqual([name for name in self.listing() if ".part" in name], [])
+
+    def test_bad_sizes(self):
+        solution = self.solve("a.glb")
+        for size in ["0x10", "10", "10x", "x10", "-1x10", "10x10x10", "1e9x1e9", "99999999x99999999"]:
+            with self.subTest(size=size):
+                self.fail_with(".*--size", "render", solution, "-o", "a.png", f"--size={size}")
+
+
+class Determinism(ProgramTest):
+    def test_threads_change_no_byte(self):
+        solutions = [self.solve(f"{n}.glb", "--threads", n).read_bytes() for n in (1, 2, 4)]
+        self.assertEqual(solutions[0], solutions[1])
+        self.assertEqual(solutions[0], solutions[2])
+
+    def test_the_seed_does(self):
+        first, second = (self.solve(f"{s}.glb", "--seed", s).read_bytes() for s in (1, 2))
+        self.assertNotEqual(first, second)
+
+
+class Terminal(ProgramTest):
+    """A solve that would last for hours, on a terminal."""
+
+    ENDLESS = ["--iterations", "100000000", "--stop-at-unshot", "0"]
+
+    def interrupt(self, number):
+        terminal, inside = pty.openpty()
+        solver = subprocess.Popen(
+            [PROGRAM, "solve", ROOM, "-o", "a.glb", *COARSE, *self.ENDLESS], cwd=self.folder,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=inside)
+        os.close(inside)
+        self.addCleanup(solver.stdout.close)
+        self.addCleanup(solver.kill)
+        shown = b""
+        sent = False
+        deadline = time.monotonic() + 300
+        while time.monotonic() < deadline:
+            if not select.select([terminal], [], [], 1)[0]:
+                continue
+            try:
+                shown += os.read(terminal, 65536)
+            except OSError:  # the other end is closed
+                break
+            if not sent and shown.count(b"\r") > 3:
+                solver.send_signal(number)
+                sent = True
+        os.close(terminal)
+        self.assertEqual(solver.wait(timeout=60), 0, shown)
+        return shown.decode()
+
+    def test_interrupted_solves_save_what_they_have(self):
+        for number in [signal.SIGINT, signal.SIGTERM]:
+            with self.subTest(signal=number):
+                shown = self.interrupt(number)
+                self.assertRegex(shown, r"\d+/100000000 iterations, [\d.]+ % unshot, \d+ triangles")
+                self.assertIn("interrupted", shown)
+                self.assertEqual(list(self.listing()), ["a.glb"])
+                self.assertIn("interrupted", self.succeed("info", "a.glb").stdout)
+
+    def test_no_progress_line_into_a_file(self):
+        result = self.succeed("solve", ROOM, "-o", "a.glb", *SHORT)
+        self.assertNotIn("\r", result.stderr)
+        result = self.succeed("solve", ROOM, "-o", "a.glb", "--quiet", *SHORT)
+        self.assertEqual(result.stderr + result.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()

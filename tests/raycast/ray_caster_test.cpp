@@ -1,0 +1,145 @@
+#include "isolux/raycast/ray_caster.h"
+
+#include <gtest/gtest.h>
+
+#include "isolux/core/random.h"
+#include "support/scenes.h"
+
+namespace isolux {
+namespace {
+
+Vec3 random_point(Random& random) { return {random.uniform(), random.uniform(), random.uniform()}; }
+
+const char* kMixedScene = R"(
+materials: {m: {reflectance: 0.5}}
+objects:
+  - {shape: {sphere: {center: [0.3, 0.3, 0.3], radius: 0.2}}, material: m}
+  - {shape: {torus: {center: [0.7, 0.7, 0.5], axis: [1, 1, 1], major_radius: 0.2, minor_radius: 0.05}}, material: m}
+  - {shape: {difference: [{box: {lower: [0.5, 0, 0], upper: [1, 0.4, 0.4]}}, {sphere: {center: [0.75, 0.2, 0.4], radius: 0.15}}]}, material: m}
+  - {shape: {mesh: {points: [[0, 0.6, 0], [0.4, 0.6, 0], [0, 1, 0], [0.1, 0.7, 0.5]], triangles: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]}}, material: m}
+  - {shape: {parallelogram: {corner: [0, 0, 0.9], u: [1, 0, 0], v: [0, 1, 0]}}, material: m}
+)";
+
+/// What every query must agree with: each shape asked by itself.
+std::vector<double> brute_force(const Scene& scene, const Ray& ray, Interval within) {
+  Hits hits;
+  for (const Object& object : scene.objects) object.shape->intersect(ray, hits);
+  std::vector<double> ts;
+  for (const Hit& hit : hits) {
+    if (hit.t > within.min && hit.t < within.max) ts.push_back(hit.t);
+  }
+  std::sort(ts.begin(), ts.end());
+  return ts;
+}
+
+TEST(RayCaster, AllQueriesAgreeWithTheShapesThemselves) {
+  Scene scene = scene_of(kMixedScene);
+  for (Object& object : scene.objects) object.sides = Sides::front;
+  const RayCaster rays(scene);
+  Random random(7);
+  std::vector<SurfaceHit> hits;
+  std::vector<Segment> segments;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 from = random_point(random), to = random_point(random);
+    const Ray ray{from, to - from};
+    segments.push_back({from, to});
+    const std::vector<double> expected = brute_force(scene, ray, {});
+    rays.all_hits(ray, {}, hits);
+    ASSERT_EQ(hits.size(), expected.size()) << "ray " << i;
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      EXPECT_EQ(hits[k].t, expected[k]);
+      EXPECT_NEAR(distance(hits[k].point, ray.at(hits[k].t)), 0, 1e-12);
+    }
+    const auto first = rays.nearest(ray);
+    ASSERT_EQ(first.has_value(), !expected.empty());
+    if (first) {
+      EXPECT_EQ(first->t, expected[0]);
+    }
+    const bool blocked = !brute_force(scene, ray, {0, 1 - 1e-6}).empty();
+    EXPECT_EQ(rays.occluded(Segment{from, to}), blocked) << "ray " << i;
+  }
+  std::vector<std::uint8_t> blocked(segments.size());
+  rays.occluded(segments, blocked);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    EXPECT_EQ(blocked[i] != 0, rays.occluded(segments[i])) << "segment " << i;
+  }
+}
+
+TEST(RayCaster, TheIntervalIsOpenAtBothEnds) {
+  const Scene scene = scene_of(R"(
+materials: {m: {reflectance: 0.5}}
+objects: [{shape: {box: {lower: [1, -1, -1], upper: [2, 1, 1]}}, material: m}]
+)");
+  const RayCaster rays(scene);
+  const Ray ray{{0, 0, 0}, {1, 0, 0}};
+  std::vector<SurfaceHit> hits;
+  rays.all_hits(ray, {1, 2}, hits);
+  EXPECT_TRUE(hits.empty());
+  rays.all_hits(ray, {0.999, 2.001}, hits);
+  EXPECT_EQ(hits.size(), 2u);
+  EXPECT_FALSE(rays.nearest(ray, {0, 1}));
+  EXPECT_EQ(rays.nearest(ray, {1, 3})->t, 2);
+  EXPECT_FALSE(rays.occluded(Segment{{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_TRUE(rays.occluded(Segment{{0, 0, 0}, {1.001, 0, 0}}));
+}
+
+TEST(RayCaster, AnOpenSurfaceHasTwoSidesUnlessToldOtherwise) {
+  Scene scene = scene_of(R"(
+materials: {m: {reflectance: 0.5}}
+objects: [{shape: {parallelogram: {corner: [-1, -1, 1], u: [2, 0, 0], v: [0, 2, 0]}}, material: m}]
+)");
+  std::vector<SurfaceHit> hits;
+  const Ray up{{0, 0, 0}, {0, 0, 1}};
+  {
+    const RayCaster rays(scene);
+    rays.all_hits(up, {}, hits);
+    ASSERT_EQ(hits.size(), 2u);
+    EXPECT_EQ(hits[0].normal, (Vec3{0, 0, -1}));
+    EXPECT_TRUE(hits[0].back);
+    EXPECT_EQ(hits[1].normal, (Vec3{0, 0, 1}));
+    EXPECT_EQ(rays.nearest(up)->normal, (Vec3{0, 0, -1}));
+  }
+  scene.objects[0].sides = Sides::front;
+  const RayCaster rays(scene);
+  rays.all_hits(up, {}, hits);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].normal, (Vec3{0, 0, 1}));
+}
+
+TEST(RayCaster, ALightHidesWhatItIsGluedTo) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  std::vector<SurfaceHit> hits;
+  const Ray up{{0.48, 0.51, 0.9}, {0, 0, 1}};
+  rays.all_hits(up, {}, hits);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_TRUE(scene.objects[hits[0].surface.object].emits());
+  EXPECT_TRUE(scene.objects[rays.nearest(up)->surface.object].emits());
+  // Beside it there is only the ceiling.
+  EXPECT_FALSE(scene.objects[rays.nearest({{0.3, 0.5, 0.9}, {0, 0, 1}})->surface.object].emits());
+}
+
+TEST(RayCaster, SurfacesInsideOtherSolidsAreBuried) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  EXPECT_TRUE(rays.buried({0.5, 0.52, 0}, {0, 0, 1})) << "the floor under the pedestal";
+  EXPECT_TRUE(rays.buried({0.5, 0.52, 0}, {0, 0, -1})) << "the pedestal's foot";
+  EXPECT_FALSE(rays.buried({0.5, 0.6, 0}, {0, 0, 1})) << "the open floor";
+  EXPECT_FALSE(rays.buried({0.55, 0.5, 0.2}, {1, 0, 0})) << "the pedestal's side";
+}
+
+TEST(RayCaster, HitsAreExactFarFromTheOrigin) {
+  Scene scene = scene_of(R"(
+materials: {m: {reflectance: 0.5}}
+objects: [{shape: {sphere: {center: [100000, 0, 0], radius: 1}}, material: m}]
+)");
+  const RayCaster rays(scene);
+  for (double offset : {0.0, 0.5, 0.9, 0.99999}) {
+    const auto hit = rays.nearest({{0, offset, 0}, {1, 0, 0}});
+    ASSERT_TRUE(hit) << offset;
+    EXPECT_NEAR(distance(hit->point, {100000, 0, 0}), 1, 1e-9) << offset;
+  }
+}
+
+}  // namespace
+}  // namespace isolux

@@ -1,0 +1,63 @@
+#include "isolux/scene/check.h"
+
+#include <gmock/gmock.h>
+
+#include "scene/scene_text.h"
+
+namespace isolux {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+SceneReport check(const std::string& text) { return check_scene(read_scene(text, "test.yaml")); }
+
+TEST(Check, TheRoomOfThePaperIsWithoutDoubt) {
+  const SceneReport report =
+      check_scene(load_scene(ISOLUX_SOURCE_DIR "/examples/lalonde1993/room.yaml"));
+  EXPECT_THAT(report.warnings, IsEmpty());
+  EXPECT_EQ(report.lights, 1u);
+  EXPECT_NEAR(report.flux, 500, 1e-6);
+  EXPECT_EQ(report.unit, "m");
+  ASSERT_EQ(report.objects.size(), 4u);
+  EXPECT_EQ(report.objects[0].material, "plaster");
+  EXPECT_NEAR(report.objects[0].area.value(), 6, 1e-12);
+  EXPECT_NEAR(report.objects[3].flux, 500, 1e-6);
+}
+
+TEST(Check, TheDieIsWithoutDoubt) {
+  const SceneReport report = check_scene(load_scene(ISOLUX_SOURCE_DIR "/examples/csg/die.yaml"));
+  EXPECT_THAT(report.warnings, IsEmpty());
+  EXPECT_EQ(report.unit, "cm");
+}
+
+TEST(Check, DoubtfulThingsAreNamed) {
+  const SceneReport report = check(
+      "isolux: 1\n"
+      "materials: {snow: {reflectance: 0.97}, spare: {reflectance: 0.5}}\n"
+      "objects:\n"
+      "  - {name: a, material: snow, shape: {sphere: {center: [0, 0, 0], radius: 1}}}\n"
+      "  - {name: a, material: snow, shape: {sphere: {center: [2, 0, 0], radius: 1}}}\n"
+      "  - {name: a, material: snow, shape: {sphere: {center: [20 km, 0, 0], radius: 1}}}\n"
+      "  - name: lamp\n"
+      "    material: snow\n"
+      "    shape: {disk: {center: [0, 0, 3], normal: -z, radius: 1 mm}}\n"
+      "    emission: {flux: 10}\n");
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("no camera")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("'spare' is not used")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("'snow' reflects 0.97")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("several objects are named 'a'")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("'lamp' also reflects")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("'lamp' is tiny")));
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("far larger or farther")));
+  EXPECT_EQ(report.warnings.size(), 7u);
+}
+
+TEST(Check, DarknessIsNamed) {
+  EXPECT_THAT(check(scene_text("    shape: {sphere: {center: [0, 0, 0], radius: 1}}\n")).warnings,
+              Contains(HasSubstr("no object emits light")));
+}
+
+}  // namespace
+}  // namespace isolux
