@@ -43,7 +43,7 @@ void add_refinement(CLI::App& command, Options& o) {
   add_angle(command, "--normal-tolerance", o.rules.normal_tolerance, 0.1, 90,
             "α_n: between a triangle's normals, °");
   add_number(command, "--contrast", "X", o.contrast, 0.0, 1e6,
-             "α_s: split where ΔB's differ more, × their mean");
+             "α_s: split where ΔB's differ by α_s × mean");
   add_number(command, "--rays", "N", o.grid, 1, 4096, "N × N jittered rays from each corner");
   add_number(command, "--least-rays", "N", o.least_rays, 0, 16000000,
              "extra uniform rays from each corner");

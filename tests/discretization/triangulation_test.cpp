@@ -147,11 +147,19 @@ TEST(Triangulation, ConnectableChangesNothingAndSaysWhatExtendDoes) {
   for (double x : {0.0, 0.3, 0.6}) {
     for (double y : {0.0, 0.35, 0.7}) mesh.extend_at(x + 0.1 * y, y - 0.07 * x);
   }
-  const auto neighbours = mesh.connectable(flat(0.2, 0.15));
+  const auto neighbours = mesh.connectable(flat(-0.15, 0.4));
   const std::size_t before = mesh.vertices().size();
-  const VertexId v = mesh.extend(flat(0.2, 0.15)).value();
+  const VertexId v = mesh.extend_at(-0.15, 0.4);
   EXPECT_EQ(v, before);
   EXPECT_EQ(mesh.vertex(v).neighbours, neighbours);
+}
+
+TEST(Triangulation, APointThatATriangleCoversIsRefused) {
+  Mesh mesh;
+  mesh.extend_at(0, 0), mesh.extend_at(0.6, 0), mesh.extend_at(0, 0.6);
+  EXPECT_FALSE(mesh.extend(flat(0.2, 0.2)));
+  EXPECT_TRUE(mesh.extend(flat(0.4, 0.4)));
+  EXPECT_THAT(mesh.validate(), IsEmpty());
 }
 
 TEST(Triangulation, UnusableRulesAreRefused) {

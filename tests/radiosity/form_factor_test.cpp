@@ -84,9 +84,9 @@ std::optional<Computed> compute(const std::string& formula, const nlohmann::json
     return polygon({{{0, 0, c}, {a, 0, c}, {a, b, c}, {0, b, c}}});
   }
   if (formula == "B_perp_corner") {
-    // The rectangle stands on the receiver's level at distance c: b wide, a high.
+    // The rectangle stands on the receiver's level at distance c: a wide, b high.
     const double a = number("a"), b = number("b"), c = number("c");
-    return polygon({{{c, 0, 0}, {c, b, 0}, {c, b, a}, {c, 0, a}}});
+    return polygon({{{c, 0, 0}, {c, a, 0}, {c, a, b}, {c, 0, b}}});
   }
   if (formula == "B_disc_par") {
     const Disk disk({number("a"), 0, number("h")}, {0, 0, -1}, number("r"));

@@ -96,6 +96,8 @@ TEST(Solution, IsGltfThatViewersCanShow) {
   // The lamp's corners, the first four, are shown white; the walls at the mean.
   const auto colors =
       read_array<std::uint16_t>(glb, primitive["attributes"]["COLOR_0"].get<std::uint64_t>(), 4, n);
+  EXPECT_EQ(glb.json["accessors"][primitive["attributes"]["COLOR_0"].get<int>()]["normalized"],
+            true);
   EXPECT_EQ(colors[0], 65535);
   EXPECT_NEAR(colors[16], 0.3 * 65535, 1);
 }

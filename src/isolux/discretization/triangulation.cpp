@@ -284,6 +284,26 @@ bool Triangulation::closes_triangle(VertexId v, VertexId a, VertexId b,
   return side_free(v, a, b, plane) && side_free(a, b, v, plane) && side_free(b, v, a, plane);
 }
 
+/// Whether a living triangle with a corner among `near` lies over or under the plane's origin,
+/// close to it.
+bool Triangulation::covered(std::span<const VertexId> near, const PlaneFrame& plane) const {
+  for (VertexId w : near) {
+    for (TriangleId t : vertices_[w].triangles) {
+      const auto& v = triangles_[t].vertices;
+      const PlanePoint a = plane.project(vertices_[v[0]].position);
+      const PlanePoint b = plane.project(vertices_[v[1]].position);
+      const PlanePoint c = plane.project(vertices_[v[2]].position);
+      const double part_a = orientation(b, c, kOrigin), part_b = orientation(c, a, kOrigin),
+                   part_c = orientation(a, b, kOrigin);
+      if (!(part_a > 0 && part_b > 0 && part_c > 0)) continue;
+      const double height = (part_a * a.height + part_b * b.height + part_c * c.height) /
+                            (part_a + part_b + part_c);
+      if (std::abs(height) < kHeightGap * rules_.max_edge) return true;
+    }
+  }
+  return false;
+}
+
 std::optional<VertexId> Triangulation::extend(const SurfacePoint& point) {
   const PlaneFrame plane(point);
   std::vector<VertexId> near;
@@ -291,6 +311,7 @@ std::optional<VertexId> Triangulation::extend(const SurfacePoint& point) {
   if (!near.empty() && distance(vertices_[near[0]].position, point.position) < least_spacing()) {
     return std::nullopt;
   }
+  if (covered(near, plane)) return std::nullopt;
 
   const VertexId v = add_vertex(point);
   for (VertexId w : connected) add_edge(v, w);

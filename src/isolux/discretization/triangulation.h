@@ -96,7 +96,8 @@ class Triangulation {
   /// extend-triangulation (§3.2.2): makes `point` a vertex, connects it to every vertex within δ
   /// whose segment crosses no possible edge, and turns the three-cycles that this closes into
   /// triangles. Returns the new vertex, its light being zero, with `neighbours` the vertices it
-  /// was connected to; nothing, and no change, where a vertex stands closer than least_spacing().
+  /// was connected to; nothing, and no change, where a vertex stands closer than least_spacing() or
+  /// a living triangle covers the point already.
   /// All ids stay valid; references into vertices() and triangles() don't. Cost: the vertices
   /// within δ times the edges within √5/2 δ.
   std::optional<VertexId> extend(const SurfacePoint& point);
@@ -144,6 +145,7 @@ class Triangulation {
   bool faces_outward(VertexId a, VertexId b, VertexId c) const;
   bool closes_triangle(VertexId v, VertexId a, VertexId b, std::span<const VertexId> near,
                        const PlaneFrame& plane) const;
+  bool covered(std::span<const VertexId> near, const PlaneFrame& plane) const;
   bool side_free(VertexId a, VertexId b, VertexId opposite, const PlaneFrame& plane) const;
 
   Rules rules_;

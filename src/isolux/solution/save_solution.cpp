@@ -88,6 +88,13 @@ int add_positions(Glb& glb, const Triangulation& mesh) {
   return index;
 }
 
+int add_colors(Glb& glb, const Triangulation& mesh) {
+  const std::vector<std::uint16_t> colors = display_colors(mesh, display_exposure(mesh));
+  const int index = add_array<std::uint16_t>(glb, colors, 4, BufferTarget::vertices);
+  glb.json["accessors"][index]["normalized"] = true;
+  return index;
+}
+
 json add_attributes(Glb& glb, const Triangulation& mesh) {
   Array normal, radiosity, irradiance, reflectance, object, face;
   for (const Vertex& v : mesh.vertices()) {
@@ -101,14 +108,12 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
     object.add(v.surface.object);
     face.add(v.surface.face);
   }
-  const double exposure = display_exposure(mesh);
   const auto add = [&](const Array& array, int components) {
     return add_array<float>(glb, array.numbers, components, BufferTarget::vertices);
   };
   return {{"POSITION", add_positions(glb, mesh)},
           {"NORMAL", add(normal, 3)},
-          {"COLOR_0", add_array<std::uint16_t>(glb, display_colors(mesh, exposure), 4,
-                                               BufferTarget::vertices)},
+          {"COLOR_0", add_colors(glb, mesh)},
           {"_RADIOSITY", add(radiosity, 3)},
           {"_IRRADIANCE", add(irradiance, 3)},
           {"_REFLECTANCE", add(reflectance, 3)},
