@@ -62,7 +62,7 @@ void add_transfer(CLI::App& command, Options& o) {
              "stop at this part of the power unshot");
   add_choice(command, "--selection", o.selection,
              {{"radiosity", Selection::radiosity}, {"power", Selection::power}},
-             "of the next shooter: radiosity or power");
+             "shoot by radiosity or by power");
   add_number(command, "--subdivisions", "N", o.subdivisions, 0, 8,
              "of emitters that are half hidden");
 }

@@ -186,39 +186,41 @@ void Triangulation::add_light(const TriangleSoup& soup, SurfaceId surface, const
 }
 
 std::vector<VertexId> Triangulation::connectable(const SurfacePoint& point) const {
-  std::vector<VertexId> near;
-  return connectable(point, near, PlaneFrame(point));
+  return connectable(point, neighbourhood(point), PlaneFrame(point));
+}
+
+Triangulation::Neighbourhood Triangulation::neighbourhood(const SurfacePoint& point) const {
+  const double delta = rules_.max_edge, reach = delta * std::sqrt(5.0) / 2;
+  Neighbourhood around;
+  grid_.query(point.position, reach, around.far);
+  std::vector<std::pair<double, VertexId>> near;
+  std::erase_if(around.far, [&](VertexId w) {
+    const Vertex& vertex = vertices_[w];
+    const double squared = length_squared(vertex.position - point.position);
+    if (squared <= delta * delta && !vertex.on_light && compatible(vertex.normal, point.normal)) {
+      near.emplace_back(squared, w);
+    }
+    return squared > reach * reach;
+  });
+  std::sort(near.begin(), near.end());
+  for (const auto& [squared, w] : near) around.near.push_back(w);
+  return around;
 }
 
 std::vector<VertexId> Triangulation::connectable(const SurfacePoint& point,
-                                                 std::vector<VertexId>& near,
+                                                 const Neighbourhood& around,
                                                  const PlaneFrame& plane) const {
-  const double delta = rules_.max_edge, reach = delta * std::sqrt(5.0) / 2;
-  std::vector<VertexId> far;
-  grid_.query(point.position, reach, far);
+  const double reach = rules_.max_edge * std::sqrt(5.0) / 2;
   const auto squared_distance = [&](VertexId v) {
     return length_squared(vertices_[v].position - point.position);
   };
-  std::erase_if(far, [&](VertexId v) { return squared_distance(v) > reach * reach; });
-
-  // Each vertex w within δ is recorded, nearest first.
-  near.clear();
-  for (VertexId w : far) {
-    if (squared_distance(w) <= delta * delta && !vertices_[w].on_light &&
-        compatible(vertices_[w].normal, point.normal)) {
-      near.push_back(w);
-    }
-  }
-  std::sort(near.begin(), near.end(), [&](VertexId a, VertexId b) {
-    return std::pair(squared_distance(a), a) < std::pair(squared_distance(b), b);
-  });
 
   // The segments of the possible-edge list that start within √5/2 δ, each once.
   const auto counts = [&](VertexId v) {
     return dot(vertices_[v].normal, point.normal) >= cos_normal_tolerance_ - kCrossingSlack;
   };
   std::vector<PlaneEdge> edges;
-  for (VertexId a : far) {
+  for (VertexId a : around.far) {
     if (!counts(a)) continue;
     for (VertexId b : vertices_[a].neighbours) {
       if (b < a && squared_distance(b) <= reach * reach && counts(b)) continue;
@@ -230,7 +232,7 @@ std::vector<VertexId> Triangulation::connectable(const SurfacePoint& point,
 
   // Each segment vw that crosses none of them is an edge.
   std::vector<VertexId> connected;
-  for (VertexId w : near) {
+  for (VertexId w : around.near) {
     const PlanePoint p = plane.project(vertices_[w].position);
     const double segment = distance(vertices_[w].position, point.position);
     const bool blocked = std::any_of(edges.begin(), edges.end(), [&](const PlaneEdge& edge) {
@@ -306,13 +308,14 @@ bool Triangulation::covered(std::span<const VertexId> near, const PlaneFrame& pl
 
 std::optional<VertexId> Triangulation::extend(const SurfacePoint& point) {
   const PlaneFrame plane(point);
-  std::vector<VertexId> near;
-  const std::vector<VertexId> connected = connectable(point, near, plane);
+  const Neighbourhood around = neighbourhood(point);
+  const std::vector<VertexId>& near = around.near;
   if (!near.empty() && distance(vertices_[near[0]].position, point.position) < least_spacing()) {
     return std::nullopt;
   }
   if (covered(near, plane)) return std::nullopt;
 
+  const std::vector<VertexId> connected = connectable(point, around, plane);
   const VertexId v = add_vertex(point);
   for (VertexId w : connected) add_edge(v, w);
   for (std::size_t i = 0; i < connected.size(); ++i) {

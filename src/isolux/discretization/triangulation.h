@@ -137,7 +137,13 @@ class Triangulation {
  private:
   struct PlaneFrame;
   bool compatible(const Vec3& normal_a, const Vec3& normal_b) const;
-  std::vector<VertexId> connectable(const SurfacePoint& point, std::vector<VertexId>& near,
+  /// The vertices around a point that it may have to do with.
+  struct Neighbourhood {
+    std::vector<VertexId> near;  ///< w: those it may be connected to, within δ, nearest first
+    std::vector<VertexId> far;   ///< all within √5/2 δ
+  };
+  Neighbourhood neighbourhood(const SurfacePoint& point) const;
+  std::vector<VertexId> connectable(const SurfacePoint& point, const Neighbourhood& around,
                                     const PlaneFrame& plane) const;
   VertexId add_vertex(const SurfacePoint& point);
   void add_edge(VertexId a, VertexId b);

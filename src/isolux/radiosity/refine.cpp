@@ -155,15 +155,16 @@ void Refinement::refine_triangulation(const MeshHit& mesh_hit, const SurfaceHit&
   extend_triangulation(hit, shot);
 }
 
-bool Refinement::too_different(const Triangle& triangle) const {
-  const auto delta = [&](int k) {
-    return luminance(mesh_.vertex(triangle.vertices[k]).delta_irradiance);
-  };
-  const double a = delta(0), b = delta(1), c = delta(2);
-  return std::max({a, b, c}) - std::min({a, b, c}) > options_.contrast * (a + b + c) / 3;
-}
-
 void Refinement::split_triangles(const Shot& shot) {
+  std::vector<double> delta;
+  for (const Vertex& vertex : mesh_.vertices()) {
+    delta.push_back(luminance(vertex.delta_irradiance));
+  }
+  const auto too_different = [&](const Triangle& triangle) {
+    const auto& [v, w, x] = triangle.vertices;
+    const auto [least, most] = std::minmax({delta[v], delta[w], delta[x]});
+    return most - least > options_.contrast * (delta[v] + delta[w] + delta[x]) / 3;
+  };
   const std::size_t n = mesh_.triangles().size();
   for (std::size_t i = 0; i < n; ++i) {
     const auto id = static_cast<TriangleId>(i);

@@ -48,7 +48,6 @@ class Refinement {
                                  std::span<const HitPair> pairs);
   void extend_triangulation(const SurfaceHit& hit, const Shot* shot);
   void refine_triangulation(const MeshHit& mesh_hit, const SurfaceHit& hit, const Shot* shot);
-  bool too_different(const Triangle& triangle) const;
   std::optional<SurfaceHit> scene_point_over_center(const Triangle& triangle) const;
   void light_newborn(Vertex& vertex, const Rgb& earlier, const Shot* shot);
   SurfacePoint surface_point(const SurfaceHit& hit) const;

@@ -10,6 +10,7 @@
 #include "isolux/core/parallel.h"
 #include "isolux/radiosity/energy.h"
 #include "isolux/radiosity/refine.h"
+#include "isolux/radiosity/spatial_order.h"
 #include "isolux/radiosity/visibility.h"
 
 namespace isolux {
@@ -43,12 +44,18 @@ struct Brightest {
 };
 
 Brightest brightest_triangle(const Triangulation& mesh, Selection selection) {
+  // Gathered beforehand: the loop below then walks through little memory.
+  std::vector<double> radiosity;
+  for (const Vertex& vertex : mesh.vertices()) radiosity.push_back(luminance(vertex.radiosity()));
   Brightest best;
   const auto triangles = mesh.triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (!triangles[i].alive) continue;
-    const double unshot = std::abs(luminance(unshot_radiosity(mesh, triangles[i])));
-    const double flux = unshot * triangles[i].area;
+    const Triangle& triangle = triangles[i];
+    if (!triangle.alive) continue;
+    const auto& [a, b, c] = triangle.vertices;
+    const double received = (radiosity[a] + radiosity[b] + radiosity[c]) / 3;
+    const double unshot = std::abs(luminance(triangle.emission - triangle.shot) + received);
+    const double flux = unshot * triangle.area;
     best.unshot_flux += flux;
     const double measure = selection == Selection::power ? flux : unshot;
     if (measure > best.measure) {
@@ -69,25 +76,26 @@ Shot take_shot(Triangulation& mesh, TriangleId id) {
 
 /// For each vertex V ∉ T: V.ΔB ← V.ρ × T.B × F_{V–T}; V.B ← V.B + V.ΔB. Returns the number of
 /// shadow rays.
-std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, const Shot& shot,
-                                           const RayCaster& rays, int subdivisions) {
+std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, std::span<const VertexId> order,
+                                           const Shot& shot, const RayCaster& rays,
+                                           int subdivisions) {
   constexpr std::size_t kGrain = 512;
-  const auto vertices = mesh.vertices();
   const auto corners = mesh.triangle(shot.triangle).vertices;
   std::atomic<std::uint64_t> ray_count = 0;
-  parallel_for(vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const auto group = order.subspan(begin, end - begin);
     std::array<Receiver, kGrain> receivers;
     std::array<double, kGrain> factors;
-    for (std::size_t i = begin; i < end; ++i) {
-      receivers[i - begin] = {vertices[i].gather_point, vertices[i].normal};
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const Vertex& vertex = mesh.vertex(group[i]);
+      receivers[i] = {vertex.gather_point, vertex.normal};
     }
-    const std::size_t n = end - begin;
-    ray_count += visible_form_factors(rays, shot.emitter, {receivers.data(), n}, subdivisions,
-                                      {factors.data(), n});
-    for (std::size_t i = begin; i < end; ++i) {
-      Vertex& vertex = vertices[i];
-      const bool of_shot = std::find(corners.begin(), corners.end(), i) != corners.end();
-      vertex.delta_irradiance = of_shot ? Rgb{} : shot.radiosity * factors[i - begin];
+    ray_count += visible_form_factors(rays, shot.emitter, {receivers.data(), group.size()},
+                                      subdivisions, {factors.data(), group.size()});
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      Vertex& vertex = mesh.vertex(group[i]);
+      const bool of_shot = std::find(corners.begin(), corners.end(), group[i]) != corners.end();
+      vertex.delta_irradiance = of_shot ? Rgb{} : shot.radiosity * factors[i];
       vertex.irradiance += vertex.delta_irradiance;
     }
   });
@@ -144,10 +152,12 @@ Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Opt
   if (options.refine && options.eye_grid > 0 && !rays.scene().cameras.empty()) {
     refinement.refine_from_eye(rays.scene().camera(options.camera));
   }
+  SpatialOrder order;
   Brightest brightest = brightest_triangle(mesh, options.selection);
   while (statistics.iterations < options.iterations) {
     const Shot shot = take_shot(mesh, brightest.triangle);
-    statistics.shadow_rays += calculate_vertex_radiosities(mesh, shot, rays, options.subdivisions);
+    statistics.shadow_rays +=
+        calculate_vertex_radiosities(mesh, order.of(mesh), shot, rays, options.subdivisions);
     if (options.refine) {
       refinement.refine(shot);
       refinement.split_triangles(shot);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "isolux/discretization/triangulation.h"
+
+namespace isolux {
+
+/// The vertices of a growing triangulation in an order in which neighbours in space are mostly
+/// neighbours in the list, so that their shadow rays run close together.
+class SpatialOrder {
+ public:
+  /// All vertices, each once. Sorted anew where the mesh has grown by an eighth since the last
+  /// time; until then the newborn come last, by birth. Valid until the next call.
+  std::span<const VertexId> of(const Triangulation& mesh);
+
+ private:
+  std::vector<VertexId> order_;
+  std::size_t sorted_ = 0;
+};
+
+}  // namespace isolux
