@@ -71,6 +71,16 @@ struct Bounds {
   bool empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
   Vec3 center() const { return (lower + upper) * 0.5; }
   double diagonal() const { return empty() ? 0 : length(upper - lower); }
+  /// Whether the open boxes have a point in common.
+  bool overlaps(const Bounds& b) const {
+    return lower.x < b.upper.x && b.lower.x < upper.x && lower.y < b.upper.y &&
+           b.lower.y < upper.y && lower.z < b.upper.z && b.lower.z < upper.z;
+  }
+  /// Whether `b` lies inside, sides included.
+  bool encloses(const Bounds& b) const {
+    return lower.x <= b.lower.x && b.upper.x <= upper.x && lower.y <= b.lower.y &&
+           b.upper.y <= upper.y && lower.z <= b.lower.z && b.upper.z <= upper.z;
+  }
   void include(const Vec3& p) { lower = min(lower, p), upper = max(upper, p); }
   void include(const Bounds& b) { lower = min(lower, b.lower), upper = max(upper, b.upper); }
 };

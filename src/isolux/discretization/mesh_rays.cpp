@@ -74,7 +74,7 @@ class MeshRays::Impl {
       young.add(corners_of(mesh, static_cast<TriangleId>(i)));
     }
     // A ray pays for each young triangle, a rebuild for each triangle: balanced near the root.
-    if (young.size() * young.size() <= 4 * mesh.triangle_count() + 4096) return;
+    if (young.size() * young.size() <= mesh.triangle_count() + 2048) return;
     std::vector<TriangleCorners> corners;
     ids.clear();
     for (std::size_t i = 0; i < n; ++i) {

@@ -298,8 +298,8 @@ bool Triangulation::covered(std::span<const VertexId> near, const PlaneFrame& pl
       const double part_a = orientation(b, c, kOrigin), part_b = orientation(c, a, kOrigin),
                    part_c = orientation(a, b, kOrigin);
       if (!(part_a > 0 && part_b > 0 && part_c > 0)) continue;
-      const double height = (part_a * a.height + part_b * b.height + part_c * c.height) /
-                            (part_a + part_b + part_c);
+      const double height =
+          (part_a * a.height + part_b * b.height + part_c * c.height) / (part_a + part_b + part_c);
       if (std::abs(height) < kHeightGap * rules_.max_edge) return true;
     }
   }

@@ -64,6 +64,10 @@ bool Box::occludes(const Ray& ray, double t_min, double t_max) const {
   return p && ((p->enter > t_min && p->enter < t_max) || (p->leave > t_min && p->leave < t_max));
 }
 
+bool Box::avoids(const Bounds& box) const {
+  return !bounds().overlaps(box) || bounds().encloses(box);
+}
+
 bool Box::contains(const Vec3& p) const {
   return p.x > lower_.x && p.y > lower_.y && p.z > lower_.z && p.x < upper_.x && p.y < upper_.y &&
          p.z < upper_.z;

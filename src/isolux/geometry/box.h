@@ -13,6 +13,7 @@ class Box final : public Shape {
   Bounds bounds() const override { return {lower_, upper_}; }
   void intersect(const Ray& ray, Hits& hits) const override;
   bool occludes(const Ray& ray, double t_min, double t_max) const override;
+  bool avoids(const Bounds& box) const override;
   bool solid() const override { return true; }
   bool contains(const Vec3& point) const override;
   std::uint32_t face_count() const override { return 6; }

@@ -58,6 +58,10 @@ class Shape {
   /// Whether some hit has t_min < t < t_max. The default asks intersect().
   virtual bool occludes(const Ray& ray, double t_min, double t_max) const;
 
+  /// Whether the surface surely stays out of the open box; false where that is not known. The
+  /// default looks at bounds().
+  virtual bool avoids(const Bounds& box) const { return !bounds().overlaps(box); }
+
   /// Whether the surface encloses a volume: such shapes may be used in CSG.
   virtual bool solid() const = 0;
 

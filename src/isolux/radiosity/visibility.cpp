@@ -152,34 +152,61 @@ Emitter emitter_of(const Triangulation& mesh, TriangleId id) {
 std::uint64_t visible_form_factors(const RayCaster& rays, const Emitter& emitter,
                                    std::span<const Receiver> receivers, int subdivisions,
                                    std::span<double> factors) {
-  // All receivers ask for one corner together: such rays run close to one another.
-  thread_local std::vector<std::uint32_t> asking;
+  constexpr std::size_t kGroup = 32;
+  thread_local std::vector<std::uint32_t> facing, doubtful;
   thread_local std::vector<Segment> segments;
   thread_local std::vector<std::uint8_t> blocked;
-  asking.clear();
+
+  facing.clear();
   for (std::uint32_t i = 0; i < receivers.size(); ++i) {
     factors[i] = 0;
-    if (may_see(emitter, receivers[i], rays.epsilon())) asking.push_back(i);
+    if (may_see(emitter, receivers[i], rays.epsilon())) facing.push_back(i);
   }
-  const std::size_t n = asking.size();
+  const auto set_whole = [&](std::uint32_t i) {
+    factors[i] = form_factor(receivers[i].point, receivers[i].normal, emitter.corners);
+  };
+
+  // Where nothing stands between a group of neighbours and the emitter, they see it whole.
+  doubtful.clear();
+  Bounds targets;
+  for (const Vec3& corner : emitter.corners) targets.include(corner);
+  const double bulge = emitter.bulge[0] + emitter.bulge[1] + emitter.bulge[2];
+  targets.lower -= Vec3{bulge, bulge, bulge};
+  targets.upper += Vec3{bulge, bulge, bulge};
+  for (std::size_t first = 0; first < facing.size(); first += kGroup) {
+    const auto group = std::span(facing).subspan(first, std::min(kGroup, facing.size() - first));
+    Bounds starts;
+    for (std::uint32_t i : group) starts.include(receivers[i].point);
+    if (rays.clear(starts, targets)) {
+      for (std::uint32_t i : group) set_whole(i);
+    } else {
+      doubtful.insert(doubtful.end(), group.begin(), group.end());
+    }
+  }
+
+  // The others ask; all for one corner together, since such rays run close to one another.
+  const std::size_t n = doubtful.size();
   segments.resize(3 * n);
   blocked.resize(3 * n);
   for (std::size_t corner = 0; corner < 3; ++corner) {
     for (std::size_t k = 0; k < n; ++k) {
-      const View view(rays, emitter, receivers[asking[k]]);
+      const View view(rays, emitter, receivers[doubtful[k]]);
       segments[corner * n + k] = {view.start(), view.lifted(kCorners[corner])};
     }
   }
   rays.occluded(segments, blocked);
   std::uint64_t ray_count = 3 * n;
-
   for (std::size_t k = 0; k < n; ++k) {
-    View view(rays, emitter, receivers[asking[k]]);
+    if (!(blocked[k] | blocked[n + k] | blocked[2 * n + k])) {
+      set_whole(doubtful[k]);
+      continue;
+    }
+    View view(rays, emitter, receivers[doubtful[k]]);
     Piece whole{kCorners, {}};
     for (std::size_t corner = 0; corner < 3; ++corner) {
       whole.visible[corner] = !blocked[corner * n + k];
     }
-    factors[asking[k]] = view.form_factor_of(whole, subdivisions);
+    factors[doubtful[k]] = view.form_factor_of(whole, subdivisions);
     ray_count += view.ray_count;
   }
   return ray_count;

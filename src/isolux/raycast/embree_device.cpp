@@ -5,10 +5,9 @@
 namespace isolux {
 
 std::shared_ptr<RTCDeviceTy> embree_device() {
-  static const std::shared_ptr<RTCDeviceTy> device(rtcNewDevice("threads=1,set_affinity=0"),
-                                                   [](RTCDevice d) {
-                                                     if (d) rtcReleaseDevice(d);
-                                                   });
+  static const std::shared_ptr<RTCDeviceTy> device(rtcNewDevice(nullptr), [](RTCDevice d) {
+    if (d) rtcReleaseDevice(d);
+  });
   if (!device) throw std::runtime_error("Embree can't start on this machine");
   return device;
 }

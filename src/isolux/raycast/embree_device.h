@@ -6,8 +6,8 @@
 
 namespace isolux {
 
-/// The one Embree device of the process; trees are built on the calling thread, so that they come
-/// out the same whatever the number of threads. Throws std::runtime_error where Embree can't start.
+/// The one Embree device of the process. It is given no number of threads: that would limit every
+/// parallel loop of the process. Throws std::runtime_error where Embree can't start.
 std::shared_ptr<RTCDeviceTy> embree_device();
 
 }  // namespace isolux

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "isolux/raycast/embree_device.h"
+#include "isolux/raycast/shaft.h"
 
 namespace isolux {
 namespace {
@@ -123,8 +124,9 @@ class RayCaster::Impl {
     const auto index = static_cast<std::uint32_t>(primitives.size());
     const bool solid = object.shape->solid();
     primitives.push_back({&object, index, object.sides == Sides::both && !solid});
+    bounds.push_back(object.shape->bounds());
     if (solid) {
-      solids.push_back({object.shape.get(), object.shape->bounds(), object.shape->unbounded()});
+      solids.push_back({object.shape.get(), bounds.back(), object.shape->unbounded()});
     }
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(object.shape->part_count()));
@@ -166,6 +168,7 @@ class RayCaster::Impl {
   std::shared_ptr<RTCDeviceTy> device = embree_device();
   RTCScene rtc = nullptr;
   std::vector<Primitive> primitives;  // by object; Embree holds pointers to them
+  std::vector<Bounds> bounds;         // by object
   std::vector<Solid> solids;
 };
 
@@ -254,6 +257,16 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
     rtcOccluded16(valid.data(), impl_->rtc, &query, &rays);
     for (std::size_t lane = 0; lane < n; ++lane) blocked[first + lane] = rays.tfar[lane] < 0;
   }
+}
+
+bool RayCaster::clear(const Bounds& from, const Bounds& to) const {
+  constexpr std::size_t kMostObjects = 256;
+  if (impl_->primitives.size() > kMostObjects) return false;
+  const Shaft shaft(from, to);
+  return std::all_of(impl_->bounds.begin(), impl_->bounds.end(), [&](const Bounds& b) {
+    if (shaft.misses(b)) return true;
+    return impl_->scene.objects[&b - impl_->bounds.data()].shape->avoids(shaft.bounds());
+  });
 }
 
 bool RayCaster::buried(const Vec3& point, const Vec3& normal) const {

@@ -75,6 +75,10 @@ class RayCaster {
   /// blocked[i] = 1 where segments[i] is occluded, else 0.
   void occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const;
 
+  /// Whether surely nothing stands anywhere between the two boxes, so that no segment from one to
+  /// the other is occluded. Cost: the number of objects; false where there are more than 256.
+  bool clear(const Bounds& from, const Bounds& to) const;
+
   /// Whether a point of a surface, a hair along its normal, lies inside another solid (or outside
   /// the room): light never gets there.
   bool buried(const Vec3& point, const Vec3& normal) const;
