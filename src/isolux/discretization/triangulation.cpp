@@ -306,13 +306,21 @@ bool Triangulation::covered(std::span<const VertexId> near, const PlaneFrame& pl
   return false;
 }
 
+bool Triangulation::crowded(const SurfacePoint& point) const {
+  thread_local std::vector<VertexId> near;
+  grid_.query(point.position, least_spacing(), near);
+  return std::any_of(near.begin(), near.end(), [&](VertexId w) {
+    const Vertex& vertex = vertices_[w];
+    return !vertex.on_light && compatible(vertex.normal, point.normal) &&
+           distance(vertex.position, point.position) < least_spacing();
+  });
+}
+
 std::optional<VertexId> Triangulation::extend(const SurfacePoint& point) {
+  if (crowded(point)) return std::nullopt;
   const PlaneFrame plane(point);
   const Neighbourhood around = neighbourhood(point);
   const std::vector<VertexId>& near = around.near;
-  if (!near.empty() && distance(vertices_[near[0]].position, point.position) < least_spacing()) {
-    return std::nullopt;
-  }
   if (covered(near, plane)) return std::nullopt;
 
   const std::vector<VertexId> connected = connectable(point, around, plane);

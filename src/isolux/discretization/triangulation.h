@@ -151,6 +151,7 @@ class Triangulation {
   bool faces_outward(VertexId a, VertexId b, VertexId c) const;
   bool closes_triangle(VertexId v, VertexId a, VertexId b, std::span<const VertexId> near,
                        const PlaneFrame& plane) const;
+  bool crowded(const SurfacePoint& point) const;
   bool covered(std::span<const VertexId> near, const PlaneFrame& plane) const;
   bool side_free(VertexId a, VertexId b, VertexId opposite, const PlaneFrame& plane) const;
 
