@@ -5,6 +5,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
+#include "isolux/radiosity/solve.h"
 #include "isolux/solution/glb.h"
 #include "solution/small_solution.h"
 
@@ -52,6 +53,24 @@ TEST(Solution, RoundTripKeepsEverything) {
     EXPECT_EQ(a.emission, b.emission);
     EXPECT_EQ(a.shot, b.shot);
     EXPECT_EQ(a.on_light, b.on_light);
+  }
+}
+
+TEST(Solution, ASolvedMeshComesBackValidWithAllItsEdges) {
+  const TemporaryFolder folder;
+  Solution saved = small_solution();
+  saved.options = Options{};
+  saved.options.rules.max_edge = 0.3;
+  saved.options.iterations = 20;
+  Solved solved = solve(saved.scene, saved.options);
+  saved.mesh = std::move(solved.mesh);
+  saved.statistics = solved.statistics;
+  save_solution(saved, folder / "a.glb");
+  const Solution loaded = load_solution(folder / "a.glb");
+  EXPECT_THAT(loaded.mesh.validate(), ::testing::IsEmpty());
+  for (VertexId v = 0; v < saved.mesh.vertices().size(); ++v) {
+    EXPECT_THAT(loaded.mesh.vertex(v).neighbours,
+                ::testing::UnorderedElementsAreArray(saved.mesh.vertex(v).neighbours));
   }
 }
 

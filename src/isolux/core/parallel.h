@@ -5,7 +5,7 @@
 
 namespace isolux {
 
-/// Limits the parallel loops of the calling thread to `threads` threads (0: all processors) while
+/// Limits the parallel loops of the whole process to `threads` threads (0: all processors) while
 /// this lives.
 class ThreadLimit {
  public:

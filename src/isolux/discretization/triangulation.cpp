@@ -92,6 +92,14 @@ bool Triangulation::has_edge(VertexId a, VertexId b) const {
   return std::find(list.begin(), list.end(), b) != list.end();
 }
 
+bool Triangulation::has_triangle(VertexId a, VertexId b) const {
+  const auto& around = vertices_[a].triangles;
+  return std::any_of(around.begin(), around.end(), [&](TriangleId t) {
+    const auto& v = triangles_[t].vertices;
+    return std::find(v.begin(), v.end(), b) != v.end();
+  });
+}
+
 void Triangulation::add_edge(VertexId a, VertexId b) {
   if (has_edge(a, b)) return;
   vertices_[a].neighbours.push_back(b);
@@ -154,6 +162,16 @@ TriangleId Triangulation::restore_triangle(const std::array<VertexId, 3>& corner
   triangles_[id].shot = shot;
   triangles_[id].on_light = on_light;
   return id;
+}
+
+void Triangulation::restore_edge(VertexId a, VertexId b) {
+  if (std::max(a, b) >= vertices_.size() || a == b) {
+    throw InputError("an edge without two vertices");
+  }
+  if (vertices_[a].on_light || vertices_[b].on_light) {
+    throw InputError("a possible edge that belongs to a light");
+  }
+  add_edge(a, b);
 }
 
 void Triangulation::add_light(const TriangleSoup& soup, SurfaceId surface, const Rgb& reflectance,

@@ -121,14 +121,19 @@ class Triangulation {
   /// Whether an edge stands between the two vertices.
   bool has_edge(VertexId a, VertexId b) const;
 
-  /// Two vertices whose normals are within α_n of one another are no closer than this (m): 0.2 √Δ.
+  /// Whether a living triangle has both vertices.
+  bool has_triangle(VertexId a, VertexId b) const;
+
+  /// No vertex is born by extension closer than this (m) to one whose normal is within α_n: 0.2 √Δ.
   double least_spacing() const;
 
-  /// Puts back a vertex or triangle as saved; for loading a solution. restore_triangle throws
-  /// InputError where a vertex does not exist, is repeated, or an edge would have three triangles.
+  /// Puts back a vertex, a triangle with its edges, or another possible edge as saved; for loading
+  /// a solution. Throws InputError where a vertex does not exist or is repeated, an edge would have
+  /// three triangles, or would leave a light.
   VertexId restore_vertex(Vertex vertex);
   TriangleId restore_triangle(const std::array<VertexId, 3>& vertices, const Rgb& emission,
                               const Rgb& shot, bool on_light);
+  void restore_edge(VertexId a, VertexId b);
 
   /// Checks every invariant (docs/architecture.md lists them); returns a line for each violation,
   /// at most 20. Cost: linear.

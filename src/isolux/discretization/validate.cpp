@@ -32,15 +32,17 @@ bool finite(const Rgb& c) { return is_finite(c); }
 
 std::vector<std::string> Triangulation::validate() const {
   Report report;
-  const double longest = rules_.max_edge * (1 + 1e-9);
+  // A mesh that was saved and loaded has been through single precision.
+  constexpr double kRounding = 1e-6;
+  const double longest = rules_.max_edge * (1 + kRounding);
 
   for (VertexId v = 0; v < vertices_.size(); ++v) {
     const Vertex& vertex = vertices_[v];
     report.check(
         is_finite(vertex.position) && finite(vertex.irradiance) && finite(vertex.delta_irradiance),
         "vertex {} has a value that is not finite", v);
-    report.check(std::abs(length(vertex.normal) - 1) < 1e-9, "vertex {}: normal not of length 1",
-                 v);
+    report.check(std::abs(length(vertex.normal) - 1) < kRounding,
+                 "vertex {}: normal not of length 1", v);
     std::vector<std::uint32_t> there;
     grid_.query(vertex.position, 0, there);
     report.check(contains(there, v), "vertex {} is not in its voxel", v);
@@ -92,7 +94,8 @@ std::vector<std::string> Triangulation::validate() const {
                    a);
       report.check(has_edge(a, b), "triangle {}: side {}–{} is no edge", t, a, b);
       report.check(vertices_[a].on_light == triangle.on_light, "triangle {} leaves a light", t);
-      report.check(triangle.on_light || compatible(vertices_[a].normal, vertices_[b].normal),
+      report.check(triangle.on_light || dot(vertices_[a].normal, vertices_[b].normal) >=
+                                            cos_normal_tolerance_ - kRounding,
                    "triangle {}: normals of {} and {} differ by more than α_n (rule 4)", t, a, b);
       report.check(half_edges.insert({a, b}).second,
                    "edge {}–{} has two triangles on one side (the other is not {})", a, b, t);

@@ -25,12 +25,12 @@ double angle_over_sine(double sine_squared, double cosine) {
 }  // namespace
 
 double form_factor(const Vec3& point, const Vec3& normal, std::span<const Vec3> polygon) {
-  constexpr std::size_t kMostCorners = 6;
+  constexpr std::size_t kMostCorners = 4;
   const std::size_t corners = polygon.size();
   assert(corners <= kMostCorners);
 
-  // R_g: unit vectors to the corners of the part above the horizon, at most one more than before.
-  std::array<Vec3, kMostCorners + 1> r;
+  // R_g: unit vectors to the corners of the part above the horizon.
+  std::array<Vec3, 2 * kMostCorners> r;
   std::size_t n = 0;
   for (std::size_t i = 0; i < corners; ++i) {
     const Vec3 a = polygon[i] - point, b = polygon[i + 1 < corners ? i + 1 : 0] - point;

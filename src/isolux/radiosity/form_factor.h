@@ -11,7 +11,7 @@ namespace isolux {
 /// polygon is clipped at the horizon of dA_j; which side of it faces the point does not matter.
 ///
 /// §3.3 takes Γ_g for the cross product of unit vectors, whose length is sin γ; as its definition
-/// says, it is scaled to the angle γ here (Hottel & Sarofim 1967). At most 6 corners.
+/// says, it is scaled to the angle γ here (Hottel & Sarofim 1967). At most 4 corners.
 double form_factor(const Vec3& point, const Vec3& normal, std::span<const Vec3> polygon);
 
 }  // namespace isolux

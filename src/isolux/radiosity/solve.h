@@ -34,8 +34,8 @@ struct Solved {
 /// any number of threads.
 Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress = {});
 
-/// Discretize light sources into triangles: the first line of the procedure. Sides are no longer
-/// than `max_edge` (m).
+/// Discretize light sources into triangles: the first line of the procedure. Their sides are about
+/// `max_edge` (m) long at most; the diagonals of cells may be longer.
 void discretize_lights(const Scene& scene, double max_edge, Triangulation& mesh);
 
 /// The While loop of the procedure on a triangulation that holds the lights and perhaps more;

@@ -262,11 +262,19 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
 bool RayCaster::clear(const Bounds& from, const Bounds& to) const {
   constexpr std::size_t kMostObjects = 256;
   if (impl_->primitives.size() > kMostObjects) return false;
-  const Shaft shaft(from, to);
-  return std::all_of(impl_->bounds.begin(), impl_->bounds.end(), [&](const Bounds& b) {
-    if (shaft.misses(b)) return true;
-    return impl_->scene.objects[&b - impl_->bounds.data()].shape->avoids(shaft.bounds());
-  });
+  // Room for the hair by which points are lifted off surfaces. It lifts them off the walls of a
+  // room into the room, so that these need none.
+  const Vec3 hair = Vec3{1, 1, 1} * (2 * epsilon());
+  const auto grown = [&](const Bounds& b) { return Bounds{b.lower - hair, b.upper + hair}; };
+  const Shaft shaft(grown(from), grown(to));
+  Bounds both = from;
+  both.include(to);
+  for (std::size_t i = 0; i < impl_->bounds.size(); ++i) {
+    if (!shaft.misses(impl_->bounds[i]) && !impl_->scene.objects[i].shape->avoids(both)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 bool RayCaster::buried(const Vec3& point, const Vec3& normal) const {

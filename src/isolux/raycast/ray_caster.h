@@ -42,10 +42,11 @@ struct Segment {
 /// All queries may be asked from many threads at once; their answers depend on nothing but the
 /// ray.
 ///
-/// What is guaranteed: a hit whose t lies strictly inside the interval is reported, one on or
-/// outside its ends is not, t being computed in double precision on the true surface (relative
-/// error about 1e-12 of the distance from the origin). Rays that start on a surface do not skip it:
-/// start them `epsilon()` along the normal, or t_min past it.
+/// Rays look forward only, whatever the interval. What is guaranteed: a hit whose t lies strictly
+/// inside the interval is reported, one on or outside its ends is not, t being computed in double
+/// precision on the true surface (relative error about 1e-12 of the distance from the origin). Rays
+/// that start on a surface do not skip it: start them `epsilon()` along the normal, or t_min past
+/// it.
 class RayCaster {
  public:
   explicit RayCaster(const Scene& scene);

@@ -112,6 +112,19 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
   return vertices;
 }
 
+void restore_loose_edges(const Glb& glb, const json& about, Triangulation& mesh) {
+  const std::uint64_t accessor = integer_member(about, "loose_edges", kMaxIndex);
+  const auto ends = read_array<std::uint32_t>(glb, accessor, 1, accessor_count(glb, accessor));
+  if (ends.size() % 2 != 0) damaged("an edge has only one end");
+  std::vector<std::uint32_t> around(mesh.vertices().size());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i] < around.size() && ++around[ends[i]] > kMaxTrianglesAtVertex) {
+      damaged("too many edges share a vertex");
+    }
+    if (i % 2 == 1) mesh.restore_edge(ends[i - 1], ends[i]);
+  }
+}
+
 Triangulation read_mesh(const Glb& glb, const json& about, const Scene& scene, const Rules& rules) {
   std::vector<Vertex> vertices = read_vertices(glb, scene);
   const auto corners = read_corners(glb, vertices.size());
@@ -135,6 +148,7 @@ Triangulation read_mesh(const Glb& glb, const json& about, const Scene& scene, c
     }
     mesh.restore_triangle(t, rgb_at(emission, i), rgb_at(shot, i), on_light[i] != 0);
   }
+  if (about.contains("loose_edges")) restore_loose_edges(glb, about, mesh);
   return mesh;
 }
 

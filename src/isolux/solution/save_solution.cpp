@@ -139,6 +139,18 @@ json add_triangles(Glb& glb, const Triangulation& mesh) {
           {"on_light", add_array<std::uint8_t>(glb, on_light, 1)}};
 }
 
+/// The possible edges without a living triangle, two vertices each: they still keep others from
+/// crossing them. Adds nothing where there are none, as glTF has no empty arrays.
+void add_loose_edges(Glb& glb, const Triangulation& mesh, json& about) {
+  std::vector<std::uint32_t> ends;
+  for (VertexId a = 0; a < mesh.vertices().size(); ++a) {
+    for (VertexId b : mesh.vertex(a).neighbours) {
+      if (a < b && !mesh.has_triangle(a, b)) ends.insert(ends.end(), {a, b});
+    }
+  }
+  if (!ends.empty()) about["loose_edges"] = add_array<std::uint32_t>(glb, ends, 1);
+}
+
 /// A glTF node that looks along its −z, with +y up, as the camera does.
 json camera_node(const Camera& camera, std::size_t index) {
   const Vec3 back = normalized(camera.eye - camera.look_at);
@@ -196,7 +208,6 @@ std::string encode(const Solution& solution) {
                     {"mode", 4}};
   triangles.erase("indices");
   root["meshes"].push_back({{"primitives", json::array({std::move(primitive)})}});
-  root["buffers"].push_back({{"byteLength", glb.binary.size()}});
   root["extras"]["isolux"] = {{"format", 1},
                               {"version", solution.version},
                               {"scene", solution.scene.source},
@@ -204,6 +215,8 @@ std::string encode(const Solution& solution) {
                               {"statistics", statistics_to_json(solution.statistics)},
                               {"display_exposure", display_exposure(mesh)},
                               {"triangles", std::move(triangles)}};
+  add_loose_edges(glb, mesh, root["extras"]["isolux"]);
+  root["buffers"].push_back({{"byteLength", glb.binary.size()}});
   return encode_glb(glb);
 }
 
