@@ -142,18 +142,7 @@ class RayCaster::Impl {
   /// Sends the query's ray through the tree.
   void trace(Query& query) const {
     rtcInitIntersectContext(&query);
-    const Ray& ray = *query.ray;
-    RTCRayHit rayhit{};
-    rayhit.ray.org_x = static_cast<float>(ray.origin.x);
-    rayhit.ray.org_y = static_cast<float>(ray.origin.y);
-    rayhit.ray.org_z = static_cast<float>(ray.origin.z);
-    rayhit.ray.dir_x = static_cast<float>(ray.direction.x);
-    rayhit.ray.dir_y = static_cast<float>(ray.direction.y);
-    rayhit.ray.dir_z = static_cast<float>(ray.direction.z);
-    rayhit.ray.tnear = 0;
-    rayhit.ray.tfar = static_cast<float>(query.within.max * (1 + 1e-6));
-    rayhit.ray.mask = ~0u;
-    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit rayhit = embree_ray(*query.ray, query.within.max);
     rtcIntersect1(rtc, &query, &rayhit);
   }
 

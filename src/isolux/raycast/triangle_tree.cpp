@@ -101,17 +101,7 @@ void TriangleTree::all_hits(const Ray& ray, Interval within, std::vector<Triangl
   query.within = within;
   query.triangles = impl_->triangles;
   query.hits = &hits;
-  RTCRayHit rayhit{};
-  rayhit.ray.org_x = static_cast<float>(ray.origin.x);
-  rayhit.ray.org_y = static_cast<float>(ray.origin.y);
-  rayhit.ray.org_z = static_cast<float>(ray.origin.z);
-  rayhit.ray.dir_x = static_cast<float>(ray.direction.x);
-  rayhit.ray.dir_y = static_cast<float>(ray.direction.y);
-  rayhit.ray.dir_z = static_cast<float>(ray.direction.z);
-  rayhit.ray.tnear = 0;
-  rayhit.ray.tfar = static_cast<float>(within.max) * 1.0001f;
-  rayhit.ray.mask = ~0u;
-  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCRayHit rayhit = embree_ray(ray, within.max);
   rtcIntersect1(impl_->scene, &query, &rayhit);
 }
 
