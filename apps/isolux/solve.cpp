@@ -40,7 +40,7 @@ void add_refinement(CLI::App& command, Options& o) {
   add_number(command, "--max-edge", "M", o.rules.max_edge, 1e-6, 1e6, "δ: longest edge, m");
   add_number(command, "--min-area", "M2", o.rules.min_area, 1e-15, 1e12,
              "Δ: least area that a split makes, m²");
-  add_angle(command, "--normal-tolerance", o.rules.normal_tolerance, 0.1, 90,
+  add_angle(command, "--normal-tolerance", o.rules.normal_tolerance, 0.1, 89.9,
             "α_n: between a triangle's normals, °");
   add_number(command, "--contrast", "X", o.contrast, 0.0, 1e6,
              "α_s: split where ΔB's differ by α_s × mean");
@@ -74,11 +74,30 @@ void save_statistics(const Statistics& statistics, const std::filesystem::path& 
   write_file(path, object.dump(2) + "\n");
 }
 
+double unshot_fraction(const Statistics& s) {
+  return s.emitted_flux > 0 ? s.unshot_flux / s.emitted_flux : 0;
+}
+
 std::string summary(const Arguments& a, const Statistics& s) {
-  const double shot = s.emitted_flux > 0 ? 1 - s.unshot_flux / s.emitted_flux : 1;
-  return fmt::format("{}{}: {} iterations, {} triangles, {:.1f} % of the light sent on, {:.1f} s",
+  return fmt::format("{}{}: {} iterations, {} triangles on {:.3g} m², {:.1f} s",
                      s.interrupted ? "interrupted; the solution so far is in " : "",
-                     a.output.string(), s.iterations, s.triangles, 100 * shot, s.wall_seconds);
+                     a.output.string(), s.iterations, s.triangles, s.mesh_area, s.wall_seconds);
+}
+
+/// What the user should know before trusting the numbers; empty where nothing is doubtful.
+std::string caution(const Arguments& a, const Statistics& s, double scene_size) {
+  constexpr double kMuchUnshot = 0.05;
+  if (a.options.rules.max_edge > scene_size / 4) {
+    return fmt::format(
+        "--max-edge {:.3g} m is long for a scene {:.3g} m across: light that falls "
+        "where no triangle fits is lost; make it shorter",
+        a.options.rules.max_edge, scene_size);
+  }
+  if (unshot_fraction(s) <= kMuchUnshot) return {};
+  return fmt::format(
+      "{:.0f} % of the light is still unshot and missing from all illuminances; "
+      "raise --iterations, or take --selection power",
+      100 * unshot_fraction(s));
 }
 
 Solved solve_with_progress(const Scene& scene, const Arguments& a,
@@ -101,10 +120,14 @@ void run(const Arguments& a) {
   interruption.ignore();
 
   const Statistics statistics = solved.statistics;
+  const double scene_size = scene.bounds().diagonal();
   save_solution({std::move(scene), std::move(solved.mesh), a.options, statistics, kVersion},
                 a.output);
   if (!a.stats.empty()) save_statistics(statistics, a.stats);
-  if (!a.quiet) say(summary(a, statistics));
+  if (a.quiet) return;
+  say(summary(a, statistics));
+  const std::string doubt = caution(a, statistics, scene_size);
+  if (!doubt.empty()) say("caution: " + doubt);
 }
 
 }  // namespace

@@ -68,6 +68,19 @@ TEST(Penumbra, OfADiskLightBehindADiskInsideItsOutline) {
               scene_of(kMaterials + kFarDisk));
 }
 
+TEST(Penumbra, AStripNarrowerThanTheLightsTrianglesCastsItsShadow) {
+  // A light of 2 × 2 triangles of 10 cm; a strip 4 cm wide just under it hides that much of it.
+  const std::string light =
+      "  - {shape: {parallelogram: {corner: [-0.05, -0.05, 1], u: [0, 0.1, 0], v: [0.1, 0, 0]}}, "
+      "material: black, sides: front, emission: {exitance: 1}}\n";
+  const std::string strip =
+      "  - {shape: {parallelogram: {corner: [-0.02, -1, 0.98], u: [0.04, 0, 0], v: [0, 2, 0]}}, "
+      "material: black}\n";
+  const double whole = irradiance_at(scene_of(kMaterials + light), 0, 1);
+  const double part = irradiance_at(scene_of(kMaterials + light + strip), 0, 1);
+  EXPECT_NEAR(part / whole, 1 - 0.4 / 0.98, 0.01);
+}
+
 TEST(Penumbra, ASphereAsALightIsNotHiddenByItself) {
   // Closed form: E = M r² h / (h² + x²)^1.5.
   const Scene scene = scene_of(

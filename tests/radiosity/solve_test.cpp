@@ -126,7 +126,36 @@ objects:
   EXPECT_GT(checked, 0);
 }
 
+TEST(Solve, ASphereLightInTheMiddleOfACubeLightsSixWallsAlike) {
+  const Scene scene = scene_of(R"(
+materials: {wall: {reflectance: 0.5}, lamp: {reflectance: 0}}
+objects:
+  - {shape: {box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}}, material: wall}
+  - {shape: {sphere: {center: [0.5, 0.5, 0.5], radius: 0.05}}, material: lamp, emission: {exitance: 1000}}
+)");
+  Options options = quick();
+  options.iterations = 100;
+  const Solved solved = solve(scene, options);
+  std::array<double, 6> sum{}, count{};
+  for (const Vertex& v : solved.mesh.vertices()) {
+    if (v.on_light) continue;
+    // Near the middle of its wall, where there are vertices enough for a mean.
+    if (distance(v.position, {0.5, 0.5, 0.5}) > 0.6) continue;
+    sum[v.surface.face] += luminance(v.irradiance);
+    count[v.surface.face] += 1;
+  }
+  for (int face = 0; face < 6; ++face) {
+    EXPECT_NEAR(sum[face] / count[face], sum[0] / count[0], 0.05 * sum[0] / count[0]) << face;
+  }
+}
+
 TEST(Solve, UnusableScenesAndOptionsAreRefused) {
+  EXPECT_THROW(solve(scene_of("materials: {m: {reflectance: 0}}\nobjects: [{shape: {sphere: "
+                              "{center: [1e6, 0, 0], radius: 1}}, material: m, emission: "
+                              "{exitance: 1}}]"),
+                     quick()),
+               InputError)
+      << "too far from the origin for single precision";
   const Scene dark = scene_of(
       "materials: {m: {reflectance: 0.5}}\n"
       "objects: [{shape: {sphere: {center: [0, 0, 0], radius: 1}}, material: m}]");

@@ -119,6 +119,27 @@ TEST(RayCaster, ALightHidesWhatItIsGluedTo) {
   EXPECT_FALSE(scene.objects[rays.nearest({{0.3, 0.5, 0.9}, {0, 0, 1}})->surface.object].emits());
 }
 
+TEST(RayCaster, OfTwoSurfacesGluedTogetherTheLaterInTheSceneIsThere) {
+  const Scene scene = scene_of(R"(
+materials: {floor: {reflectance: 0.5}, rug: {reflectance: 0}}
+objects:
+  - {shape: {box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}}, material: floor}
+  - {shape: {parallelogram: {corner: [0.2, 0.2, 0], u: [0.6, 0, 0], v: [0, 0.6, 0]}}, material: rug, sides: front}
+)");
+  const RayCaster rays(scene);
+  Random random(3);
+  std::vector<SurfaceHit> hits;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 from{random.uniform(), random.uniform(), 0.9};
+    const Vec3 to{0.2 + 0.6 * random.uniform(), 0.2 + 0.6 * random.uniform(), 0};
+    const Ray ray{from, to - from};
+    EXPECT_EQ(rays.nearest(ray)->surface.object, 1u);
+    rays.all_hits(ray, {}, hits);
+    ASSERT_EQ(hits.size(), 1u);
+    EXPECT_EQ(hits[0].surface.object, 1u);
+  }
+}
+
 TEST(RayCaster, SurfacesInsideOtherSolidsAreBuried) {
   const Scene scene = paper_room();
   const RayCaster rays(scene);

@@ -54,6 +54,16 @@ TEST(Check, DoubtfulThingsAreNamed) {
   EXPECT_EQ(report.warnings.size(), 7u);
 }
 
+TEST(Check, ALightInsideASolidIsNamed) {
+  const SceneReport report = check(R"(isolux: 1
+materials: {m: {reflectance: 0.5}, lamp: {reflectance: 0}}
+objects:
+  - {name: ball, shape: {sphere: {center: [0, 0, 0], radius: 1}}, material: m}
+  - {name: bulb, shape: {sphere: {center: [0, 0, 0], radius: 0.1}}, material: lamp, emission: {flux: 1}}
+)");
+  EXPECT_THAT(report.warnings, Contains(HasSubstr("'bulb' lies inside 'ball'")));
+}
+
 TEST(Check, DarknessIsNamed) {
   EXPECT_THAT(check(scene_text("    shape: {sphere: {center: [0, 0, 0], radius: 1}}\n")).warnings,
               Contains(HasSubstr("no object emits light")));

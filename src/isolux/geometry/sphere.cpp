@@ -83,9 +83,9 @@ bool Sphere::contains(const Vec3& point) const {
 std::optional<double> Sphere::area() const { return 4 * pi * radius_ * radius_; }
 
 std::optional<TriangleSoup> Sphere::triangulate(double max_edge) const {
-  // At least as fine as a circle of 32 segments.
+  // At least as fine as a circle of 8 segments.
   TriangleSoup soup = icosahedron();
-  subdivide(soup, std::min(max_edge / radius_, 2 * std::sin(pi / 32)), normalized);
+  subdivide(soup, std::min(max_edge / radius_, 2 * std::sin(pi / 8)), normalized);
   for (Vec3& p : soup.points) p = center_ + p * radius_;
   scale_to_area(soup, center_, *area());
   return soup;

@@ -10,7 +10,7 @@ namespace isolux {
 namespace {
 
 constexpr int kMaxSide = 32'768;
-constexpr std::int64_t kMaxPixels = 1 << 28;
+constexpr std::int64_t kMaxPixels = 1 << 26;
 constexpr int kMaxGrid = 64;
 
 void check(const Camera& camera, const RenderOptions& options) {

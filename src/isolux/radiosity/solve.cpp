@@ -102,6 +102,18 @@ std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, std::span<const 
   return ray_count;
 }
 
+/// Trees over triangles and saved solutions hold coordinates in single precision.
+void check_place(const Bounds& bounds) {
+  constexpr double kFarthest = 1000;
+  const double away = length(bounds.center()), size = bounds.diagonal();
+  if (away > kFarthest * size) {
+    throw InputError(fmt::format(
+        "the scene, {:.3g} m across, lies {:.3g} m from the origin: move it nearer, to within {} "
+        "times its size",
+        size, away, kFarthest));
+  }
+}
+
 }  // namespace
 
 void check_options(const Options& options) {
@@ -195,6 +207,7 @@ Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Opt
 
 Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress) {
   check_options(options);
+  check_place(scene.bounds());
   const RayCaster rays(scene);
   Solved solved{Triangulation(options.rules, scene.bounds()), {}};
   discretize_lights(scene, options.rules.max_edge, solved.mesh);

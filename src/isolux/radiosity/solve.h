@@ -29,9 +29,9 @@ struct Solved {
 };
 
 /// Procedure Radiosity (§3.2.1): the light of the scene on a triangulation grown from nothing.
-/// Throws InputError where the scene has no light that can be cut into triangles, options are out
-/// of range, or the camera does not exist. The same scene, options and seed give the same bits on
-/// any number of threads.
+/// Throws InputError where the scene has no light that can be cut into triangles or lies more than
+/// 1000 of its sizes from the origin, options are out of range, or the camera does not exist. The
+/// same scene, options and seed give the same bits on any number of threads.
 Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress = {});
 
 /// Discretize light sources into triangles: the first line of the procedure. Their sides are about

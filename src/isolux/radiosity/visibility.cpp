@@ -28,12 +28,17 @@ class View {
   View(const RayCaster& rays, const Emitter& emitter, const Receiver& receiver)
       : rays_(rays), emitter_(emitter), receiver_(receiver) {}
 
-  /// Form factor to what is seen of `piece`.
-  double form_factor_of(const Piece& piece, int subdivisions) {
+  /// Form factor to what is seen of `piece`, which is cut in four `probes` times even where its
+  /// corners agree.
+  double form_factor_of(const Piece& piece, int probes, int subdivisions) {
     const int seen = piece.visible_count();
-    if (seen == 0) return 0;
-    if (seen == 3) return polygon(piece.corners);
-    if (subdivisions == 0) return cut_at_shadow_edge(piece);
+    if (probes == 0) {
+      if (seen == 0) return 0;
+      if (seen == 3) return polygon(piece.corners);
+      if (subdivisions == 0) return cut_at_shadow_edge(piece);
+    }
+    const int less_probes = std::max(0, probes - 1);
+    const int less = probes > 0 ? subdivisions : subdivisions - 1;
 
     const auto& [a, b, c] = piece.corners;
     const std::array<Barycentric, 3> middle{between(a, b, 0.5), between(b, c, 0.5),
@@ -42,10 +47,10 @@ class View {
     look(middle, open);
     const auto& [ab, bc, ca] = middle;
     const auto& v = piece.visible;
-    double sum = form_factor_of({{a, ab, ca}, {v[0], open[0], open[2]}}, subdivisions - 1);
-    sum += form_factor_of({{ab, b, bc}, {open[0], v[1], open[1]}}, subdivisions - 1);
-    sum += form_factor_of({{ca, bc, c}, {open[2], open[1], v[2]}}, subdivisions - 1);
-    sum += form_factor_of({{ab, bc, ca}, {open[0], open[1], open[2]}}, subdivisions - 1);
+    double sum = form_factor_of({{a, ab, ca}, {v[0], open[0], open[2]}}, less_probes, less);
+    sum += form_factor_of({{ab, b, bc}, {open[0], v[1], open[1]}}, less_probes, less);
+    sum += form_factor_of({{ca, bc, c}, {open[2], open[1], v[2]}}, less_probes, less);
+    sum += form_factor_of({{ab, bc, ca}, {open[0], open[1], open[2]}}, less_probes, less);
     return sum;
   }
 
@@ -138,6 +143,7 @@ Emitter emitter_of(const Triangulation& mesh, TriangleId id) {
   const Triangle& triangle = mesh.triangle(id);
   Emitter emitter;
   emitter.normal = triangle.normal;
+  emitter.light = triangle.on_light;
   for (int k = 0; k < 3; ++k) emitter.corners[k] = mesh.vertex(triangle.vertices[k]).position;
   for (int k = 0; k < 3; ++k) {
     const Vertex& a = mesh.vertex(triangle.vertices[k]);
@@ -197,7 +203,7 @@ std::uint64_t visible_form_factors(const RayCaster& rays, const Emitter& emitter
   rays.occluded(segments, blocked);
   std::uint64_t ray_count = 3 * n;
   for (std::size_t k = 0; k < n; ++k) {
-    if (!(blocked[k] | blocked[n + k] | blocked[2 * n + k])) {
+    if (!emitter.light && !(blocked[k] | blocked[n + k] | blocked[2 * n + k])) {
       set_whole(doubtful[k]);
       continue;
     }
@@ -206,7 +212,7 @@ std::uint64_t visible_form_factors(const RayCaster& rays, const Emitter& emitter
     for (std::size_t corner = 0; corner < 3; ++corner) {
       whole.visible[corner] = !blocked[corner * n + k];
     }
-    factors[doubtful[k]] = view.form_factor_of(whole, subdivisions);
+    factors[doubtful[k]] = view.form_factor_of(whole, emitter.light ? 2 : 0, subdivisions);
     ray_count += view.ray_count;
   }
   return ray_count;

@@ -13,10 +13,11 @@ namespace {
 /// the boxes to look into.
 struct Query : RTCIntersectContext {
   Interval within;
-  // For nearest(): the best hits so far, of any surface and of lights.
   const Ray* ray = nullptr;
-  double tie = 0;  // hits closer together than this, in t, coincide
-  std::optional<SurfaceHit> first, first_light;
+  // For nearest(): the best hit so far, and how close together, in t, hits coincide.
+  std::optional<SurfaceHit> first;
+  double tie = 0;
+  const Scene* scene = nullptr;
   // For all_hits(): where they go.
   std::vector<SurfaceHit>* all = nullptr;
   // For occluded(): the rays of the packet, by their id.
@@ -49,9 +50,18 @@ bool earlier(const SurfaceHit& a, const SurfaceHit& b) {
          std::tuple(b.t, b.surface.object, b.surface.face);
 }
 
-/// Whether two hits lie on one and the same plane, one surface glued to the other.
+/// Whether two hits lie on one and the same plane, the surface of one object glued to another's.
 bool glued(const SurfaceHit& a, const SurfaceHit& b, double tie) {
-  return std::abs(a.t - b.t) <= tie && std::abs(dot(a.normal, b.normal)) > 0.9999;
+  return a.surface.object != b.surface.object && std::abs(a.t - b.t) <= tie &&
+         std::abs(dot(a.normal, b.normal)) > 0.9999;
+}
+
+/// Of two surfaces glued together, whether a's is the one that is there.
+bool covers(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
+  const auto rank = [&](const SurfaceHit& hit) {
+    return std::pair(scene.objects[hit.surface.object].emits(), hit.surface.object);
+  };
+  return rank(a) > rank(b);
 }
 
 void bounds_callback(const RTCBoundsFunctionArguments* args) {
@@ -75,7 +85,6 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   thread_local Hits hits;
   hits.clear();
   primitive.object->shape->intersect_part(args->primID, *query.ray, hits);
-  const bool light = primitive.object->emits();
   for (const Hit& hit : hits) {
     if (!(hit.t > query.within.min && hit.t < query.within.max)) continue;
     const SurfaceHit found = surface_hit(primitive, hit);
@@ -84,13 +93,13 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
       if (primitive.both_sides) query.all->push_back(other_side(found));
       continue;
     }
-    if (!query.first || earlier(found, *query.first)) {
+    const bool first = !query.first || (glued(found, *query.first, query.tie)
+                                            ? covers(*query.scene, found, *query.first)
+                                            : earlier(found, *query.first));
+    if (first) {
       query.first = found;
       float& tfar = RTCRayN_tfar(reinterpret_cast<RTCRayN*>(args->rayhit), args->N, 0);
       tfar = static_cast<float>((found.t + query.tie) * (1 + 1e-6));
-    }
-    if (light && (!query.first_light || earlier(found, *query.first_light))) {
-      query.first_light = found;
     }
   }
 }
@@ -173,10 +182,10 @@ std::optional<SurfaceHit> RayCaster::nearest(const Ray& ray, Interval within) co
   query.ray = &ray;
   query.within = within;
   query.tie = epsilon() / length(ray.direction);
+  query.scene = &impl_->scene;
   impl_->trace(query);
   if (!query.first) return std::nullopt;
-  SurfaceHit hit = *query.first;
-  if (query.first_light && glued(*query.first_light, hit, query.tie)) hit = *query.first_light;
+  const SurfaceHit& hit = *query.first;
   const Primitive& primitive = impl_->primitives[hit.surface.object];
   if (primitive.both_sides && dot(hit.normal, ray.direction) > 0) return other_side(hit);
   return hit;
@@ -196,18 +205,21 @@ void RayCaster::all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit
            std::tuple(b.t, b.surface.object, b.surface.face, !facing(b));
   });
 
+  // Glued surfaces are neighbours in the list, or nearly so.
   const double tie = epsilon() / length(ray.direction);
-  const auto lit = [&](const SurfaceHit& hit) {
-    return impl_->scene.objects[hit.surface.object].emits();
-  };
-  if (std::none_of(hits.begin(), hits.end(), lit)) return;
-  std::vector<SurfaceHit> lights;
-  std::copy_if(hits.begin(), hits.end(), std::back_inserter(lights), lit);
-  std::erase_if(hits, [&](const SurfaceHit& hit) {
-    return !lit(hit) && std::any_of(lights.begin(), lights.end(), [&](const SurfaceHit& light) {
-      return glued(light, hit, tie);
-    });
-  });
+  thread_local std::vector<char> hidden;
+  hidden.assign(hits.size(), 0);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    for (std::size_t j = i + 1; j < hits.size() && hits[j].t - hits[i].t <= tie; ++j) {
+      if (!glued(hits[i], hits[j], tie)) continue;
+      hidden[covers(impl_->scene, hits[i], hits[j]) ? j : i] = 1;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hidden[i]) hits[kept++] = hits[i];
+  }
+  hits.resize(kept);
 }
 
 bool RayCaster::occluded(const Segment& segment) const {

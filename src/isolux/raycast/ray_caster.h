@@ -64,8 +64,9 @@ class RayCaster {
   std::optional<SurfaceHit> nearest(const Ray& ray, Interval within = {}) const;
 
   /// All hits, in ascending t, into `hits` (cleared first). A surface with two sides gives two
-  /// hits at the same t, the one that faces the ray first. Where surfaces coincide (equal t within
-  /// epsilon), a light hides what it is glued to.
+  /// hits at the same t, the one that faces the ray first. Where surfaces of two objects coincide
+  /// (equal t within epsilon, parallel), only one is there: a light before others, then the object
+  /// that comes later in the scene.
   void all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit>& hits) const;
 
   /// Whether anything lies strictly between the ends of the segment, the last millionth of its

@@ -40,6 +40,16 @@ void check_names(const Scene& scene, Warnings& warnings) {
   }
 }
 
+/// Whether the front of every triangle that the light is cut into has its middle inside the solid;
+/// `hair` (m) lifts it off the surface.
+bool hidden_in(const Shape& light, const Shape& solid, double hair) {
+  const auto soup = light.triangulate(std::numeric_limits<double>::infinity());
+  return soup && std::all_of(soup->triangles.begin(), soup->triangles.end(), [&](const auto& t) {
+           const Vec3 a = soup->points[t[0]], b = soup->points[t[1]], c = soup->points[t[2]];
+           return solid.contains((a + b + c) / 3 + normalized(cross(b - a, c - a)) * hair);
+         });
+}
+
 void check_lights(const Scene& scene, double scene_size, Warnings& warnings) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
@@ -50,6 +60,13 @@ void check_lights(const Scene& scene, double scene_size, Warnings& warnings) {
           fmt::format("light {} also reflects {}: measured fluxes usually include "
                       "that, so consider reflectance 0",
                       in_quotes(object.name), max_channel(reflectance)));
+    }
+    for (const Object& other : scene.objects) {
+      if (&other != &object && other.shape->solid() &&
+          hidden_in(*object.shape, *other.shape, 1e-6 * scene_size)) {
+        warnings.push_back(fmt::format("light {} lies inside {}: its light goes nowhere",
+                                       in_quotes(object.name), in_quotes(other.name)));
+      }
     }
     const double size = object.shape->bounds().diagonal();
     if (size < kTinyLight * scene_size) {
