@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -85,6 +88,23 @@ TEST(ParallelFor, MayBeNested) {
   });
   EXPECT_EQ(count, 1000u);
 }
+
+#ifdef __SANITIZE_THREAD__
+// What the thread sanitizer is told of a loop's order, and not to look at, must not hide a race.
+TEST(ParallelForDeathTest, TheThreadSanitizerFindsARaceBetweenRanges) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs two processors";
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto race = [] {
+    std::size_t count = 0;
+    parallel_for(200, 1, [&](std::size_t begin, std::size_t end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      count += end - begin;
+    });
+    std::exit(0);
+  };
+  EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
+}
+#endif
 
 }  // namespace
 }  // namespace isolux
