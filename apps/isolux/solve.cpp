@@ -96,8 +96,9 @@ std::string caution(const Arguments& a, const Statistics& s, double scene_size) 
   if (unshot_fraction(s) <= kMuchUnshot) return {};
   return fmt::format(
       "{:.0f} % of the light is still unshot and missing from all illuminances; "
-      "raise --iterations, or take --selection power",
-      100 * unshot_fraction(s));
+      "raise --iterations{}",
+      100 * unshot_fraction(s),
+      a.options.selection == Selection::power ? "" : ", or take --selection power");
 }
 
 Solved solve_with_progress(const Scene& scene, const Arguments& a,
