@@ -19,6 +19,7 @@ struct Work {
   RayCaster rays{scene};
   Triangulation mesh = [this] {
     Options options;
+    options.method = Method::shooting;
     options.iterations = 100;
     return solve(scene, options).mesh;
   }();

@@ -28,9 +28,9 @@ Number parse(const std::string& option, const std::string& given, Number least, 
 }  // namespace
 
 template <typename Number>
-void add_number(CLI::App& command, const std::string& name, const std::string& text, Number& value,
-                Number least, Number most, const std::string& help) {
-  command
+CLI::Option* add_number(CLI::App& command, const std::string& name, const std::string& text, Number& value,
+                        Number least, Number most, const std::string& help) {
+  return command
       .add_option_function<std::string>(
           name,
           [&value, name, least, most](const std::string& given) {
@@ -40,16 +40,16 @@ void add_number(CLI::App& command, const std::string& name, const std::string& t
       ->option_text(text);
 }
 
-template void add_number(CLI::App&, const std::string&, const std::string&, int&, int, int,
+template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, int&, int, int,
                          const std::string&);
-template void add_number(CLI::App&, const std::string&, const std::string&, std::uint64_t&,
+template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, std::uint64_t&,
                          std::uint64_t, std::uint64_t, const std::string&);
-template void add_number(CLI::App&, const std::string&, const std::string&, double&, double, double,
+template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, double&, double, double,
                          const std::string&);
 
-void add_angle(CLI::App& command, const std::string& name, double& radians, double least,
-               double most, const std::string& help) {
-  command
+CLI::Option* add_angle(CLI::App& command, const std::string& name, double& radians, double least,
+                       double most, const std::string& help) {
+  return command
       .add_option_function<std::string>(
           name,
           [&radians, name, least, most](const std::string& given) {
@@ -57,6 +57,19 @@ void add_angle(CLI::App& command, const std::string& name, double& radians, doub
           },
           fmt::format("{} [{:.4g}]", help, radians / kDegree))
       ->option_text("DEG");
+}
+
+CLI::Option* add_percentage(CLI::App& command, const std::string& name, double& share, double least,
+                            double most, const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&share, name, least, most](const std::string& given) {
+            const std::string number = given.ends_with('%') ? given.substr(0, given.size() - 1) : given;
+            share = parse(name, number, least, most) / 100;
+          },
+          fmt::format("{} [{:.4g}]", help, 100 * share))
+      ->option_text("%");
 }
 
 }  // namespace isolux

@@ -10,16 +10,20 @@ namespace isolux {
 /// Adds an option that takes a number from `least` to `most`, read strictly: no other base, no
 /// unit, no NaN. `value` holds the default, which the help shows; `text` is what the help calls it.
 template <typename Number>
-void add_number(CLI::App& command, const std::string& name, const std::string& text, Number& value,
+CLI::Option* add_number(CLI::App& command, const std::string& name, const std::string& text, Number& value,
                 Number least, Number most, const std::string& help);
 
 /// The same for an angle: from `least` to `most` degrees on the command line, kept in radians.
-void add_angle(CLI::App& command, const std::string& name, double& radians, double least,
+CLI::Option* add_angle(CLI::App& command, const std::string& name, double& radians, double least,
                double most, const std::string& help);
+
+/// The same for a share, given in per cent: `2` and `2%` are both 0.02.
+CLI::Option* add_percentage(CLI::App& command, const std::string& name, double& share, double least,
+                            double most, const std::string& help);
 
 /// Adds an option that takes one of the named choices; `value` holds the default.
 template <typename Choice>
-void add_choice(CLI::App& command, const std::string& name, Choice& value,
+CLI::Option* add_choice(CLI::App& command, const std::string& name, Choice& value,
                 const std::vector<std::pair<std::string, Choice>>& choices,
                 const std::string& help) {
   std::string names, standard;
@@ -36,7 +40,8 @@ void add_choice(CLI::App& command, const std::string& name, Choice& value,
     }
     throw CLI::ValidationError(name, "'" + given + "' must be " + names);
   };
-  command.add_option_function<std::string>(name, set, help + " [" + standard + "]")
+  return command.add_option_function<std::string>(name, set,
+                                                  standard.empty() ? help : help + " [" + standard + "]")
       ->option_text("NAME");
 }
 

@@ -52,6 +52,10 @@ std::string describe_scene(const Scene& scene) {
 }
 
 std::string describe_options(const Options& o) {
+  if (o.method == Method::gathering) {
+    return fmt::format("options     tolerance {:.4g} %, seed {}{}\n", 100 * o.tolerance, o.seed,
+                       o.max_triangles > 0 ? fmt::format(", at most {} triangles", o.max_triangles) : "");
+  }
   return fmt::format(
       "options     δ {:.6g} m, Δ {:.6g} m², α_n {:.4g}°, α_s {:.6g}, seed {}\n"
       "            {} × {} {} rays a corner and {} more, {} × {} from the eye{}{}\n"
@@ -64,7 +68,23 @@ std::string describe_options(const Options& o) {
       o.selection == Selection::power ? "power" : "radiosity", o.stop_at_unshot, o.subdivisions);
 }
 
-std::string describe_statistics(const Statistics& s) {
+std::string describe_gathering(const Statistics& s) {
+  const char* end = s.interrupted ? "interrupted" : s.converged ? "tolerance met" : "tolerance not met";
+  const auto share = [&](double flux) { return s.emitted_flux > 0 ? 100 * flux / s.emitted_flux : 0; };
+  return fmt::format(
+      "solve       {} ({} rounds), {} vertices gathered {} rays each\n"
+      "mesh        {} triangles, {} vertices ({} by splits), {:.6g} m²\n"
+      "energy      {:.6g} lm emitted: absorbed {:.2f} %, escaped {:.2f} %, unshot {:.2f} %, "
+      "unaccounted for {:.2f} %\n"
+      "illuminance {:.6g} lx on average, estimated error {:.2g} %: interpolation {:.2g} %, "
+      "rays {:.2g} %\n",
+      end, s.iterations, s.gatherers, s.gather_rays, s.triangles, s.vertices, s.split, s.mesh_area,
+      s.emitted_flux, share(s.absorbed_flux), share(s.escaped_flux), share(s.unshot_flux),
+      share(s.imbalance), s.mean_irradiance, 100 * s.error, 100 * s.discretization_error,
+      100 * s.sampling_error);
+}
+
+std::string describe_shooting(const Statistics& s) {
   const char* end = s.interrupted ? "interrupted" : s.converged ? "converged" : "all shots made";
   const double unshot = s.emitted_flux > 0 ? 100 * s.unshot_flux / s.emitted_flux : 0;
   return fmt::format(
@@ -96,7 +116,8 @@ void run(const std::filesystem::path& path) {
   const Solution solution = load_solution(path);
   print(fmt::format("{}: a solution by isolux {}\n", path.string(), solution.version) +
         describe_scene(solution.scene) + describe_options(solution.options) +
-        describe_statistics(solution.statistics) + describe_objects(solution));
+        (solution.options.method == Method::gathering ? describe_gathering(solution.statistics)
+                                                      : describe_shooting(solution.statistics)) + describe_objects(solution));
 }
 
 }  // namespace

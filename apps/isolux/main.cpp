@@ -6,13 +6,12 @@
 #include <string>
 
 #include "commands.h"
+#include "exit_code.h"
 #include "isolux/core/error.h"
 #include "isolux/core/version.h"
 #include "output.h"
 
 namespace {
-
-enum ExitCode { kDone = 0, kUserError = 1, kInternalError = 2 };
 
 void parse_and_run(CLI::App& program, int argc, char** argv) {
   try {
@@ -37,16 +36,19 @@ int run(int argc, char** argv) {
   // Last, since subcommands take over the footer there is.
   program.footer(
       "Each has its own --help. Lengths are in m, angles in degrees.\n"
-      "Exit code: 0 done, 1 the input or the usage is wrong, 2 a fault of isolux.");
+      "Exit code: 0 done, 1 the input or the usage is wrong, 2 a fault of isolux, 3 solved\n"
+      "short of the tolerance.");
   try {
     parse_and_run(program, argc, argv);
-    return kDone;
+    return isolux::kDone;
+  } catch (const CLI::RuntimeError& end) {
+    return end.get_exit_code();
   } catch (const CLI::ParseError& error) {
     isolux::say(fmt::format("{} (see 'isolux --help')", error.what()));
   } catch (const isolux::InputError& error) {
     isolux::say(error.what());
   }
-  return kUserError;
+  return isolux::kUserError;
 }
 
 }  // namespace
@@ -61,5 +63,5 @@ int main(int argc, char** argv) {
   } catch (...) {
     isolux::say("internal error: of unknown kind");
   }
-  return kInternalError;
+  return isolux::kInternalError;
 }

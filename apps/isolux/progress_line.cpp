@@ -38,6 +38,13 @@ void ProgressLine::show(const Progress& progress) {
   if (!enabled_ || (shown_ && now - last_ < std::chrono::milliseconds(100))) return;
   shown_ = true;
   last_ = now;
+  if (progress.iterations == 0) {
+    fmt::print(stderr, "{}{}{:.1f} % unshot, {} triangles, {} rays/s", kEraseLine,
+               progress.error > 0 ? fmt::format("± {:.2g} %, ", 100 * progress.error) : "",
+               100 * progress.unshot_fraction, progress.triangles, rate(progress.rays_per_second));
+    std::fflush(stderr);
+    return;
+  }
   fmt::print(stderr, "{}{}/{} iterations, {:.1f} % unshot, {} triangles, {} rays/s, {} left",
              kEraseLine, progress.iteration, progress.iterations, 100 * progress.unshot_fraction,
              progress.triangles, rate(progress.rays_per_second), duration(progress.seconds_left));

@@ -17,7 +17,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ["ISOLUX_PROGRAM"]
 ROOM = PROJECT / "examples" / "lalonde1993" / "room.yaml"
-COARSE = ["--rays", "8", "--eye-rays", "8", "--max-edge", "0.25"]
+COARSE = ["--preset", "paper", "--rays", "8", "--eye-rays", "8", "--max-edge", "0.25"]
 SHORT = [*COARSE, "--iterations", "4"]
 FLOOR = "x,y,z,nx,ny,nz\n0.3,0.3,0,0,0,1\n0.7,0.3,0.001,0,0,1\n"
 
@@ -291,7 +291,7 @@ class Terminal(ProgramTest):
                 solver.send_signal(number)
                 sent = True
         os.close(terminal)
-        self.assertEqual(solver.wait(timeout=60), 0, shown)
+        self.assertEqual(solver.wait(timeout=60), 3, shown)
         return shown.decode()
 
     def test_interrupted_solves_save_what_they_have(self):

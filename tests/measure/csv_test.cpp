@@ -58,10 +58,10 @@ TEST(PointsCsv, ErrorsNameTheirPlace) {
 }
 
 TEST(MeasurementsCsv, HasNineDigits) {
-  const Measurement m{{{1.0 / 3, 2, -3e-7}, {0, 0, 1}}, {100, 200.123456789, 0}};
+  const Measurement m{{{1.0 / 3, 2, -3e-7}, {0, 0, 1}}, {100, 200.123456789, 0}, 1.5};
   EXPECT_EQ(measurements_to_csv({&m, 1}),
-            "x,y,z,nx,ny,nz,Er,Eg,Eb,E\n"
-            "0.333333333,2,-3e-07,0,0,1,100,200.123457,0,164.388296\n");
+            "x,y,z,nx,ny,nz,Er,Eg,Eb,E,error\n"
+            "0.333333333,2,-3e-07,0,0,1,100,200.123457,0,164.388296,1.5\n");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace {
 /// A mesh that the method itself grew, its light taken away again.
 Triangulation fixed_mesh(const Scene& scene) {
   Options options;
+  options.method = Method::shooting;
   options.rules = {0.35, 5e-3, 0.52};
   options.iterations = 4;
   options.grid = 12;
@@ -53,6 +54,7 @@ objects:
   const std::vector<Rgb> plain = plain_progressive_radiosity(mesh, factors, 1e-6);
 
   Options options;
+  options.method = Method::shooting;
   options.refine = false;
   options.eye_grid = 0;
   options.selection = Selection::power;

@@ -32,6 +32,7 @@ Scene furnace(const std::array<double, 7>& reflectance, const std::array<double,
 /// The largest deviation of a corner's radiosity from `expected`, relative to it.
 double worst_deviation(const Scene& scene, double expected) {
   Options options;
+  options.method = Method::shooting;
   options.rules.max_edge = 0.25;
   options.refine = false;
   options.selection = Selection::power;

@@ -13,6 +13,7 @@ namespace {
 
 Options quick() {
   Options options;
+  options.method = Method::shooting;
   options.rules.max_edge = 0.2;
   options.iterations = 30;
   return options;
@@ -105,6 +106,7 @@ objects:
   - {shape: {parallelogram: {corner: [1.5, 1.5, 3], u: [0, 1, 0], v: [1, 0, 0]}}, material: black, sides: front, emission: {exitance: 3141.592653589793}}
 )");
   Options options;
+  options.method = Method::shooting;
   options.rules = {0.5, 1e-3, 0.5};
   options.iterations = 50;
   const Solved solved = solve(scene, options);

@@ -10,6 +10,7 @@ double mean_triangles(double max_edge, double contrast) {
   double sum = 0;
   for (std::uint64_t seed : {1, 2}) {
     Options options;
+    options.method = Method::shooting;
     options.rules.max_edge = max_edge;
     options.contrast = contrast;
     options.iterations = 25;

@@ -60,6 +60,7 @@ TEST(Solution, ASolvedMeshComesBackValidWithAllItsEdges) {
   const TemporaryFolder folder;
   Solution saved = small_solution();
   saved.options = Options{};
+  saved.options.method = Method::shooting;
   saved.options.rules.max_edge = 0.3;
   saved.options.iterations = 20;
   Solved solved = solve(saved.scene, saved.options);

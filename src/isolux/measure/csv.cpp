@@ -154,13 +154,14 @@ std::vector<MeasurePoint> load_points(const std::filesystem::path& path) {
 }
 
 std::string measurements_to_csv(std::span<const Measurement> measurements) {
-  std::string csv = "x,y,z,nx,ny,nz,Er,Eg,Eb,E\n";
+  std::string csv = "x,y,z,nx,ny,nz,Er,Eg,Eb,E,error\n";
   for (const Measurement& m : measurements) {
     const auto& [p, n] = m.at;
     const Rgb& e = m.irradiance;
     fmt::format_to(std::back_inserter(csv),
-                   "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", p.x,
-                   p.y, p.z, n.x, n.y, n.z, e.r, e.g, e.b, m.illuminance());
+                   "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", p.x,
+                   p.y, p.z, n.x, n.y, n.z, e.r, e.g, e.b, m.illuminance(),
+                   m.error ? fmt::format("{:.3g}", *m.error) : "");
   }
   return csv;
 }

@@ -4,6 +4,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/radiosity/gather.h"
+#include "isolux/radiosity/gathering.h"
 
 namespace isolux {
 namespace {
@@ -17,6 +18,25 @@ Receiver receiver_of(const MeasurePoint& point, const RayCaster& rays) {
     lift = next * rays.epsilon();
   }
   return {point.position + point.normal * lift, point.normal};
+}
+
+/// From every triangle of the solution.
+void from_triangles(const Solution& solution, const RayCaster& rays,
+                    std::span<const Receiver> receivers, std::span<Measurement> measurements) {
+  std::vector<Rgb> irradiance(receivers.size());
+  gather_irradiance(solution.mesh, rays, receivers, solution.options.subdivisions, irradiance);
+  for (std::size_t i = 0; i < irradiance.size(); ++i) measurements[i].irradiance = irradiance[i];
+}
+
+/// As the vertices of the solution gathered theirs.
+void by_rays(const Solution& solution, const RayCaster& rays, std::span<const Receiver> receivers,
+             std::span<Measurement> measurements) {
+  const std::vector<Illumination> found = gather_at(solution.mesh, rays, solution.statistics,
+                                                    receivers, solution.options.seed);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    measurements[i].irradiance = found[i].irradiance;
+    measurements[i].error = found[i].error;
+  }
 }
 
 void check_distance(std::span<const MeasurePoint> points, const Bounds& bounds) {
@@ -38,13 +58,13 @@ std::vector<Measurement> measure(const Solution& solution, std::span<const Measu
   std::vector<Receiver> receivers;
   receivers.reserve(points.size());
   for (const MeasurePoint& p : points) receivers.push_back(receiver_of(p, rays));
-  std::vector<Rgb> irradiance(points.size());
-  gather_irradiance(solution.mesh, rays, receivers, solution.options.subdivisions, irradiance);
-
   std::vector<Measurement> measurements;
   measurements.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    measurements.push_back({points[i], irradiance[i]});
+  for (const MeasurePoint& point : points) measurements.push_back({point, {}, {}});
+  if (solution.options.method == Method::shooting) {
+    from_triangles(solution, rays, receivers, measurements);
+  } else {
+    by_rays(solution, rays, receivers, measurements);
   }
   return measurements;
 }

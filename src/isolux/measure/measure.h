@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,12 +19,14 @@ struct MeasurePoint {
 struct Measurement {
   MeasurePoint at;
   Rgb irradiance;  ///< lx per channel
+  /// Of the illuminance, lx: 95 in 100 are less wrong. Not known for solves by shooting.
+  std::optional<double> error;
 
   double illuminance() const { return luminance(irradiance); }  ///< lx
 };
 
-/// The irradiance at each point, gathered from all triangles of the solution with visibility by
-/// rays to the true geometry; in the order of the points, the same on any number of threads. Throws
+/// The irradiance at each point, gathered from the whole solution with visibility by rays to the
+/// true geometry; in the order of the points, the same on any number of threads. Throws
 /// InputError, with the number of the point, where one lies farther from the scene than 1000 times
 /// its size, for its coordinates are hardly in metres then.
 std::vector<Measurement> measure(const Solution& solution, std::span<const MeasurePoint> points);

@@ -7,6 +7,12 @@
 
 namespace isolux {
 
+/// How the light is found.
+enum class Method {
+  gathering,  ///< surfaces are covered first; each vertex gathers, until a tolerance is met
+  shooting,   ///< progressive radiosity as in the paper: triangle after triangle sends its light
+};
+
 /// Which triangle shoots next.
 enum class Selection {
   radiosity,  ///< the brightest: the largest unshot radiosity (the paper's)
@@ -19,9 +25,14 @@ enum class Distribution {
   malley,   ///< jittered on the disk, lifted to the hemisphere: cosine density (§4.2)
 };
 
-/// Everything that steers a solve. The defaults are the paper's method with the settings that
-/// reproduce its Table 1 (docs/reproduction.md).
+/// Everything that steers a solve. Those of the paper have the values that reproduce its Table 1
+/// (docs/reproduction.md); gathering needs none of them.
 struct Options {
+  Method method = Method::gathering;
+  double tolerance = 0.01;  ///< gathering: root mean square of the error of illuminance over all
+                            ///< surfaces, relative to its mean
+  std::uint64_t max_triangles = 0;  ///< gathering: refine no further than this many, 0: no bound
+
   Rules rules;                   ///< δ, Δ, α_n
   double contrast = 2.0;         ///< α_s: a triangle is split where its ΔE's differ by more
                                  ///< than α_s × their mean (rule 5)

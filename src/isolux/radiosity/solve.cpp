@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <chrono>
-#include <ctime>
 
 #include "isolux/core/error.h"
 #include "isolux/core/parallel.h"
 #include "isolux/radiosity/energy.h"
+#include "isolux/radiosity/gathering.h"
 #include "isolux/radiosity/refine.h"
 #include "isolux/radiosity/spatial_order.h"
+#include "isolux/radiosity/stopwatch.h"
 #include "isolux/radiosity/visibility.h"
 
 namespace isolux {
@@ -23,18 +23,6 @@ namespace isolux {
 //   R.ΔB       unshot_radiosity(R)
 
 namespace {
-
-class Stopwatch {
- public:
-  double wall() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  double cpu() const { return double(std::clock() - cpu_start_) / CLOCKS_PER_SEC; }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_start_ = std::clock();
-};
 
 /// The brightest triangle and the unshot light of all, found in one pass.
 struct Brightest {
@@ -120,6 +108,8 @@ void check_options(const Options& options) {
   const auto require = [](bool holds, const char* text) {
     if (!holds) throw InputError(text);
   };
+  require(options.tolerance >= 1e-4 && options.tolerance <= 1,
+          "the tolerance must lie between 0.01 % and 100 %");
   require(options.contrast >= 0, "the contrast α_s must not be negative");
   require(options.iterations >= 0 && options.iterations <= 100'000'000,
           "the number of iterations must lie between 0 and 100,000,000");
@@ -184,7 +174,7 @@ Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Opt
       const auto ray_count =
           static_cast<double>(statistics.refinement_rays + statistics.shadow_rays);
       const int left = options.iterations - statistics.iterations;
-      if (!progress({statistics.iterations, options.iterations,
+      if (!progress({statistics.iterations, options.iterations, 0,
                      brightest.unshot_flux / statistics.emitted_flux, mesh.triangle_count(),
                      ray_count / std::max(seconds, 1e-9),
                      seconds / statistics.iterations * left})) {
@@ -206,6 +196,9 @@ Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Opt
 }
 
 Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress) {
+  if (options.method == Method::gathering) {
+    return solve_by_gathering(scene, options, {progress, {}});
+  }
   check_options(options);
   check_place(scene.bounds());
   const RayCaster rays(scene);
@@ -213,6 +206,16 @@ Solved solve(const Scene& scene, const Options& options, const ProgressCallback&
   discretize_lights(scene, options.rules.max_edge, solved.mesh);
   solved.statistics = transfer_energy(solved.mesh, rays, options, progress);
   return solved;
+}
+
+Solved solve_by_gathering(const Scene& scene, const Options& options,
+                          const GatheringCallbacks& callbacks, std::optional<GatheringState> from) {
+  check_options(options);
+  check_place(scene.bounds());
+  const RayCaster rays(scene);
+  if (!from) from.emplace(GatheringState{Triangulation(gathering_rules(scene), scene.bounds())});
+  gather_radiosity(*from, rays, options, callbacks);
+  return {std::move(from->mesh), from->statistics};
 }
 
 }  // namespace isolux

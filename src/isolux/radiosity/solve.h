@@ -1,38 +1,33 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 
 #include "isolux/discretization/triangulation.h"
+#include "isolux/radiosity/gathering.h"
 #include "isolux/radiosity/options.h"
+#include "isolux/radiosity/progress.h"
 #include "isolux/radiosity/statistics.h"
 #include "isolux/raycast/ray_caster.h"
 #include "isolux/scene/scene.h"
 
 namespace isolux {
 
-/// How far a solve has come.
-struct Progress {
-  int iteration = 0;
-  int iterations = 0;          ///< at most
-  double unshot_fraction = 1;  ///< of the emitted flux
-  std::uint64_t triangles = 0;
-  double rays_per_second = 0;  ///< so far, on average
-  double seconds_left = 0;     ///< estimated
-};
-
-/// Asked after every iteration; returns false to stop with what there is.
-using ProgressCallback = std::function<bool(const Progress&)>;
-
 struct Solved {
   Triangulation mesh;
   Statistics statistics;
 };
 
-/// Procedure Radiosity (§3.2.1): the light of the scene on a triangulation grown from nothing.
+/// The light of the scene on a triangulation grown from nothing: by gathering, or by the paper's
+/// procedure Radiosity (§3.2.1).
 /// Throws InputError where the scene has no light that can be cut into triangles or lies more than
 /// 1000 of its sizes from the origin, options are out of range, or the camera does not exist. The
 /// same scene, options and seed give the same bits on any number of threads.
 Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress = {});
+
+/// The same by gathering, in full: told between rounds, and perhaps on from a checkpoint.
+Solved solve_by_gathering(const Scene& scene, const Options& options,
+                          const GatheringCallbacks& callbacks,
+                          std::optional<GatheringState> from = {});
 
 /// Discretize light sources into triangles: the first line of the procedure. Their sides are about
 /// `max_edge` (m) long at most; the diagonals of cells may be longer.

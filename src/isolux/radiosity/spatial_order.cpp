@@ -26,18 +26,27 @@ std::uint32_t morton(const Vec3& p, const Bounds& bounds) {
 
 }  // namespace
 
+std::vector<std::uint32_t> z_order(std::span<const Vec3> points) {
+  Bounds bounds;
+  for (const Vec3& p : points) bounds.include(p);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
+  codes.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) codes.emplace_back(morton(points[i], bounds), i);
+  std::sort(codes.begin(), codes.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(codes.size());
+  for (const auto& [code, i] : codes) order.push_back(i);
+  return order;
+}
+
 std::span<const VertexId> SpatialOrder::of(const Triangulation& mesh) {
   const auto vertices = mesh.vertices();
   while (order_.size() < vertices.size()) order_.push_back(static_cast<VertexId>(order_.size()));
   if (order_.size() - sorted_ > sorted_ / 8) {
-    Bounds bounds;
-    for (const Vertex& vertex : vertices) bounds.include(vertex.position);
-    std::vector<std::pair<std::uint32_t, VertexId>> codes;
-    for (VertexId v = 0; v < vertices.size(); ++v) {
-      codes.emplace_back(morton(vertices[v].position, bounds), v);
-    }
-    std::sort(codes.begin(), codes.end());
-    for (std::size_t i = 0; i < codes.size(); ++i) order_[i] = codes[i].second;
+    std::vector<Vec3> points;
+    points.reserve(vertices.size());
+    for (const Vertex& vertex : vertices) points.push_back(vertex.position);
+    order_ = z_order(points);
     sorted_ = order_.size();
   }
   return order_;

@@ -7,6 +7,10 @@
 
 namespace isolux {
 
+/// The indices of the points along a Z-order curve through their bounds: neighbours in the list are
+/// mostly neighbours in space.
+std::vector<std::uint32_t> z_order(std::span<const Vec3> points);
+
 /// The vertices of a growing triangulation in an order in which neighbours in space are mostly
 /// neighbours in the list, so that their shadow rays run close together.
 class SpatialOrder {

@@ -82,6 +82,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
   const auto position = array<float>(glb, attributes, "POSITION", 3, n);
   const auto normal = array<float>(glb, attributes, "NORMAL", 3, n);
   const auto irradiance = array<float>(glb, attributes, "_IRRADIANCE", 3, n);
+  const auto error = array<float>(glb, attributes, "_ERROR", 1, n);
   const auto reflectance = array<float>(glb, attributes, "_REFLECTANCE", 3, n);
   const auto object = array<float>(glb, attributes, "_OBJECT", 1, n);
   const auto face = array<float>(glb, attributes, "_FACE", 1, n);
@@ -94,6 +95,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
     v.position = v.gather_point = vec3_at(position, i);
     v.normal = vec3_at(normal, i);
     v.irradiance = rgb_at(irradiance, i);
+    v.error = error[i];
     v.reflectance = rgb_at(reflectance, i);
     v.surface.object = index_at(object, i, static_cast<double>(scene.objects.size()), "object");
     v.surface.face = index_at(face, i, 1 << 25, "face");
@@ -105,6 +107,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
     if (std::abs(length(v.normal) - 1) > 1e-3) {
       damaged(fmt::format("the normal of vertex {} has not length 1", i));
     }
+    if (!(v.error >= 0)) damaged(fmt::format("the error of vertex {} is negative", i));
     if (!(min_channel(v.reflectance) >= 0 && max_channel(v.reflectance) <= 1)) {
       damaged(fmt::format("the reflectance of vertex {} is not from 0 to 1", i));
     }

@@ -18,6 +18,9 @@ using nlohmann::json;
 /// Calls f(name, member) for every option: the one list that saving and loading share.
 template <typename AnyOptions, typename F>
 void for_each_option(AnyOptions& options, F&& f) {
+  f("method", options.method);
+  f("tolerance", options.tolerance);
+  f("max_triangles", options.max_triangles);
   f("max_edge", options.rules.max_edge);
   f("min_area", options.rules.min_area);
   f("normal_tolerance", options.rules.normal_tolerance);
@@ -52,8 +55,19 @@ void for_each_statistic(AnyStatistics& statistics, F&& f) {
   f("unshot_flux", statistics.unshot_flux);
   f("ambient_exitance", statistics.ambient_exitance);
   f("mesh_area", statistics.mesh_area);
+  f("gather_rays", statistics.gather_rays);
+  f("gatherers", statistics.gatherers);
+  f("absorbed_flux", statistics.absorbed_flux);
+  f("escaped_flux", statistics.escaped_flux);
+  f("imbalance", statistics.imbalance);
+  f("mean_irradiance", statistics.mean_irradiance);
+  f("error", statistics.error);
+  f("discretization_error", statistics.discretization_error);
+  f("sampling_error", statistics.sampling_error);
+  f("emitter_error", statistics.emitter_error);
 }
 
+const char* name_of(Method m) { return m == Method::shooting ? "shooting" : "gathering"; }
 const char* name_of(Selection s) { return s == Selection::power ? "power" : "radiosity"; }
 const char* name_of(Distribution d) { return d == Distribution::malley ? "malley" : "uniform"; }
 
@@ -94,6 +108,9 @@ struct Read {
     const json& j = member(object, key);
     if (!j.is_string()) reject(key, "a text");
     value = j.get<std::string>();
+  }
+  void operator()(const char* key, Method& value) const {
+    choose(key, value, Method::gathering, Method::shooting);
   }
   void operator()(const char* key, Selection& value) const {
     choose(key, value, Selection::radiosity, Selection::power);

@@ -96,7 +96,7 @@ int add_colors(Glb& glb, const Triangulation& mesh) {
 }
 
 json add_attributes(Glb& glb, const Triangulation& mesh) {
-  Array normal, radiosity, irradiance, reflectance, object, face;
+  Array normal, radiosity, irradiance, error, reflectance, object, face;
   for (const Vertex& v : mesh.vertices()) {
     if (std::max(v.surface.object, v.surface.face) > 1u << 24) {
       throw InputError("can't be saved: a surface has a number beyond 2^24");
@@ -104,6 +104,7 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
     normal.add(v.normal);
     radiosity.add(saved_radiosity(v));
     irradiance.add(v.irradiance);
+    error.add(v.error);
     reflectance.add(v.reflectance);
     object.add(v.surface.object);
     face.add(v.surface.face);
@@ -116,6 +117,7 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
           {"COLOR_0", add_colors(glb, mesh)},
           {"_RADIOSITY", add(radiosity, 3)},
           {"_IRRADIANCE", add(irradiance, 3)},
+          {"_ERROR", add(error, 1)},
           {"_REFLECTANCE", add(reflectance, 3)},
           {"_OBJECT", add(object, 1)},
           {"_FACE", add(face, 1)}};
@@ -190,6 +192,8 @@ std::string encode(const Solution& solution) {
   if (mesh.triangle_count() == 0) {
     throw InputError("can't be saved: it has no triangles; does the scene have a light?");
   }
+  Options options = solution.options;
+  options.rules = mesh.rules();
   Glb glb;
   json& root = glb.json;
   root["asset"] = {{"version", "2.0"}, {"generator", "isolux " + solution.version}};
@@ -211,7 +215,7 @@ std::string encode(const Solution& solution) {
   root["extras"]["isolux"] = {{"format", 1},
                               {"version", solution.version},
                               {"scene", solution.scene.source},
-                              {"options", options_to_json(solution.options)},
+                              {"options", options_to_json(options)},
                               {"statistics", statistics_to_json(solution.statistics)},
                               {"display_exposure", display_exposure(mesh)},
                               {"triangles", std::move(triangles)}};

@@ -17,7 +17,7 @@ cameras: {front: {eye: [0.5, -2, 0.5], look_at: [0.5, 0.5, 0.5]}}
 
 int main() {
   isolux::Options options;
-  options.iterations = 2;
+  options.tolerance = 0.1;
   const isolux::Solved solved = isolux::solve(isolux::read_scene(kScene, "scene"), options);
   std::printf("isolux %s: %zu triangles\n", isolux::kVersion, solved.mesh.triangle_count());
   return solved.mesh.triangle_count() > 0 ? 0 : 1;

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include "isolux/core/color.h"
+#include "isolux/discretization/triangulation.h"
+#include "isolux/radiosity/hemisphere_gather.h"
+#include "isolux/radiosity/progress.h"
+#include "isolux/radiosity/statistics.h"
+
+namespace isolux {
+
+/// The light of a vertex by its parts, E = E_d + E_i: straight from the lights, and by reflection.
+struct VertexLight {
+  Rgb direct, indirect;                                       // lx
+  double direct_deviation = 0, indirect_deviation = 0;        // σ of their luminance, lx
+  double bend = 0;                    // what interpolating E_i may have cost, lx
+  double escaped = 0;                 // part of the hemisphere in which no surface is seen
+  std::array<VertexId, 2> parents{};  // the ends of the edge that it was born on
+  std::vector<Landing> row;           // where it gathers; empty: E_i is the mean of the parents'
+
+  bool gathers() const { return !row.empty(); }
+};
+
+/// What gathering knows between two of its rounds: enough to go on from there.
+struct GatheringState {
+  Triangulation mesh;
+  std::vector<VertexLight> light;  // by vertex
+  std::vector<Rgb> irradiance;     // E by vertex, lx
+  /// Errors of interpolation in the middle of edges, lx, by the ends a < b: a × 2³² + b.
+  std::unordered_map<std::uint64_t, float> direct_error, indirect_error;
+  double level = 0;  // the tolerance that is being worked for
+  int tries = 0;     // levels below the tolerance asked for
+  int grid = 0;      // rays over a hemisphere: cells a side
+  double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
+  double bias = 0;                                          // mean of direct_error, lx
+  double deviation = 0;                                     // root mean square of σ, lx
+  Statistics statistics;
+};
+
+/// Told between two rounds; may keep a copy for gather_radiosity() to go on from.
+using CheckpointCallback = std::function<void(const GatheringState&)>;
+
+struct GatheringCallbacks {
+  ProgressCallback progress;      ///< may end the solve
+  CheckpointCallback checkpoint;  ///< told between two rounds
+};
+
+}  // namespace isolux

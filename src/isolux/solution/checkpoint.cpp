@@ -1,0 +1,267 @@
+#include "isolux/solution/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include <algorithm>
+
+#include "isolux/core/error.h"
+#include "isolux/core/file.h"
+#include "isolux/core/version.h"
+#include "isolux/radiosity/gathering.h"
+#include "isolux/solution/glb.h"
+#include "isolux/solution/metadata.h"
+
+namespace isolux {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kFormat = "isolux checkpoint 1";
+
+[[noreturn]] void damaged(const char* key) {
+  throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
+}
+
+/// The numbers of a vertex that are not lists.
+struct PackedVertex {
+  Vec3 position, normal, gather_point;
+  Rgb reflectance, irradiance, delta_irradiance;
+  double error = 0;
+  SurfaceId surface;
+  std::uint32_t on_light = 0, neighbours = 0, triangles = 0;  // lengths of lists, the last two
+  std::uint32_t unused = 0;
+};
+
+struct PackedTriangle {
+  Vec3 normal;
+  double area = 0;
+  Rgb emission, shot;
+  std::array<VertexId, 3> vertices{};
+  std::uint16_t alive = 0, on_light = 0;
+};
+
+struct PackedLight {
+  Rgb direct, indirect;
+  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0;
+  std::array<VertexId, 2> parents{};
+  std::uint64_t landings = 0;
+};
+
+struct PackedError {
+  std::uint64_t edge = 0;
+  float error = 0;
+  std::uint32_t unused = 0;
+};
+
+/// The scalars of a state, for writing and reading alike.
+template <typename State, typename F>
+void for_each_scalar(State& state, F&& f) {
+  f("level", state.level);
+  f("direct_mean_square", state.direct_mean_square);
+  f("indirect_mean_square", state.indirect_mean_square);
+  f("bias", state.bias);
+  f("deviation", state.deviation);
+}
+
+template <typename T>
+void put(json& object, const char* key, const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<std::uint8_t> bytes(values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  object[key] = json::binary(std::move(bytes));
+}
+
+template <typename T>
+std::vector<T> get(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_binary()) damaged(key);
+  const auto& bytes = found->get_binary();
+  if (bytes.size() % sizeof(T) != 0) damaged(key);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+/// Takes `count` values off the front of a flattened list.
+template <typename T>
+std::vector<T> take(const std::vector<T>& all, std::size_t& at, std::size_t count,
+                    const char* key) {
+  if (count > all.size() - at) damaged(key);
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(at);
+  at += count;
+  return {first, first + static_cast<std::ptrdiff_t>(count)};
+}
+
+json mesh_to_json(const Triangulation& mesh) {
+  std::vector<PackedVertex> vertices;
+  std::vector<std::uint32_t> neighbours, around;
+  for (const Vertex& v : mesh.vertices()) {
+    vertices.push_back({v.position, v.normal, v.gather_point, v.reflectance, v.irradiance,
+                        v.delta_irradiance, v.error, v.surface, v.on_light,
+                        static_cast<std::uint32_t>(v.neighbours.size()),
+                        static_cast<std::uint32_t>(v.triangles.size())});
+    neighbours.insert(neighbours.end(), v.neighbours.begin(), v.neighbours.end());
+    around.insert(around.end(), v.triangles.begin(), v.triangles.end());
+  }
+  std::vector<PackedTriangle> triangles;
+  for (const Triangle& t : mesh.triangles()) {
+    triangles.push_back({t.normal, t.area, t.emission, t.shot, t.vertices, t.alive, t.on_light});
+  }
+  json object;
+  put(object, "vertices", vertices);
+  put(object, "neighbours", neighbours);
+  put(object, "around", around);
+  put(object, "triangles", triangles);
+  return object;
+}
+
+Triangulation mesh_from_json(const json& object, const Rules& rules, const Bounds& bounds) {
+  const auto neighbours = get<std::uint32_t>(object, "neighbours");
+  const auto around = get<std::uint32_t>(object, "around");
+  std::size_t next_neighbour = 0, next_around = 0;
+  std::vector<Vertex> vertices;
+  for (const PackedVertex& p : get<PackedVertex>(object, "vertices")) {
+    Vertex v;
+    static_cast<SurfacePoint&>(v) = {p.position, p.normal, p.surface, p.reflectance};
+    v.gather_point = p.gather_point;
+    v.irradiance = p.irradiance;
+    v.delta_irradiance = p.delta_irradiance;
+    v.error = p.error;
+    v.on_light = p.on_light != 0;
+    v.neighbours = take(neighbours, next_neighbour, p.neighbours, "neighbours");
+    v.triangles = take(around, next_around, p.triangles, "around");
+    vertices.push_back(std::move(v));
+  }
+  std::vector<Triangle> triangles;
+  for (const PackedTriangle& p : get<PackedTriangle>(object, "triangles")) {
+    Triangle t;
+    t.vertices = p.vertices;
+    t.alive = p.alive != 0;
+    t.on_light = p.on_light != 0;
+    t.normal = p.normal;
+    t.area = p.area;
+    t.emission = p.emission;
+    t.shot = p.shot;
+    triangles.push_back(t);
+  }
+  return {rules, bounds, std::move(vertices), std::move(triangles)};
+}
+
+void put_errors(json& object, const char* key,
+                const std::unordered_map<std::uint64_t, float>& errors) {
+  std::vector<PackedError> packed;
+  for (const auto& [edge, error] : errors) packed.push_back({edge, error});
+  put(object, key, packed);
+}
+
+json state_to_json(const GatheringState& state) {
+  json object;
+  std::vector<PackedLight> lights;
+  std::vector<Landing> landings;
+  for (const VertexLight& l : state.light) {
+    lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.bend,
+                      l.escaped, l.parents, l.row.size()});
+    landings.insert(landings.end(), l.row.begin(), l.row.end());
+  }
+  put(object, "light", lights);
+  put(object, "landings", landings);
+  put(object, "irradiance", state.irradiance);
+  put_errors(object, "direct_error", state.direct_error);
+  put_errors(object, "indirect_error", state.indirect_error);
+  for_each_scalar(state, [&](const char* key, double value) { object[key] = value; });
+  object["tries"] = state.tries;
+  object["grid"] = state.grid;
+  object["statistics"] = statistics_to_json(state.statistics);
+  return object;
+}
+
+std::unordered_map<std::uint64_t, float> get_errors(const json& object, const char* key) {
+  std::unordered_map<std::uint64_t, float> errors;
+  for (const PackedError& p : get<PackedError>(object, key)) errors[p.edge] = p.error;
+  return errors;
+}
+
+GatheringState state_from_json(const json& object, Triangulation mesh, std::size_t surface_count) {
+  GatheringState state{std::move(mesh)};
+  const std::size_t vertex_count = state.mesh.vertices().size();
+  const auto landings = get<Landing>(object, "landings");
+  for (const Landing& landing : landings) {
+    const bool known = std::all_of(landing.vertices.begin(), landing.vertices.end(),
+                                   [&](VertexId v) { return v < vertex_count; });
+    if (!known || landing.surface >= surface_count) damaged("landings");
+  }
+  std::size_t next = 0;
+  for (const PackedLight& p : get<PackedLight>(object, "light")) {
+    if (std::max(p.parents[0], p.parents[1]) >= vertex_count) damaged("light");
+    state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.bend,
+                           p.escaped, p.parents, take(landings, next, p.landings, "landings")});
+  }
+  state.irradiance = get<Rgb>(object, "irradiance");
+  if (state.light.size() != vertex_count) damaged("light");
+  if (state.irradiance.size() != vertex_count) damaged("irradiance");
+  state.direct_error = get_errors(object, "direct_error");
+  state.indirect_error = get_errors(object, "indirect_error");
+  for_each_scalar(state, [&](const char* key, double& value) {
+    const json& j = member(object, key);
+    if (!j.is_number()) damaged(key);
+    value = j.get<double>();
+  });
+  constexpr std::uint64_t kMost = 1 << 16;
+  state.tries = static_cast<int>(integer_member(object, "tries", kMost));
+  state.grid = static_cast<int>(integer_member(object, "grid", kMost));
+  state.statistics = statistics_from_json(member(object, "statistics"));
+  return state;
+}
+
+/// What a checkpoint must agree with.
+json circumstances(const Scene& scene, const Options& options) {
+  return {{"format", kFormat},
+          {"version", kVersion},
+          {"scene", scene.source},
+          {"options", options_to_json(options)}};
+}
+
+GatheringState decode(const std::string& bytes, const Scene& scene, const Options& options,
+                  const Rules& rules) {
+  const json root = json::from_cbor(bytes, true, false);
+  if (root.is_discarded() || !root.is_object() || root.value("format", "") != kFormat) {
+    throw InputError("is no checkpoint of isolux, or is cut off");
+  }
+  const json now = circumstances(scene, options);
+  for (const char* key : {"version", "scene", "options"}) {
+    if (member(root, key) != now[key]) {
+      throw InputError(fmt::format("is of another {}; solve anew without it", key));
+    }
+  }
+  Triangulation mesh = mesh_from_json(member(root, "mesh"), rules, scene.bounds());
+  return state_from_json(member(root, "state"), std::move(mesh),
+                         HemisphereGather::surface_count(scene));
+}
+
+}  // namespace
+
+void save_checkpoint(const Scene& scene, const Options& options, const GatheringState& state,
+                     const std::filesystem::path& path) {
+  json root = circumstances(scene, options);
+  root["mesh"] = mesh_to_json(state.mesh);
+  root["state"] = state_to_json(state);
+  std::string bytes;
+  json::to_cbor(root, bytes);
+  write_file(path, bytes);
+}
+
+GatheringState load_checkpoint(const Scene& scene, const Options& options,
+                               const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  try {
+    return decode(bytes, scene, options, gathering_rules(scene));
+  } catch (const InputError& error) {
+    throw InputError({path.string()}, error.what());
+  }
+}
+
+}  // namespace isolux

@@ -1,0 +1,153 @@
+#include "isolux/radiosity/gathering.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "isolux/core/error.h"
+#include "isolux/core/parallel.h"
+#include "isolux/core/random.h"
+#include "isolux/radiosity/solve.h"
+#include "support/scenes.h"
+
+namespace isolux {
+namespace {
+
+Options to_tolerance(double tolerance) {
+  Options options;
+  options.tolerance = tolerance;
+  return options;
+}
+
+/// The scene with every object its own reflectance ρ_i and an emission of B₀ (1 − ρ_i): its radiosity
+/// is B₀ everywhere, whatever the geometry, as long as it is closed.
+Scene manufactured(Scene scene, double radiosity) {
+  const Material any = scene.materials.front();
+  scene.materials.clear();
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const double rho = 0.1 + 0.8 * (i * 0.618 - std::floor(i * 0.618));
+    scene.materials.push_back({fmt::format("{} {}", any.name, i), gray(rho)});
+    scene.objects[i].material = i;
+    scene.objects[i].exitance = gray(radiosity * (1 - rho));
+    scene.objects[i].sides = Sides::front;
+  }
+  return scene;
+}
+
+/// The largest deviation of a vertex' radiosity from B₀, relative to it.
+double worst_deviation(const Scene& scene, double radiosity) {
+  const Solved solved = solve(scene, to_tolerance(0.02));
+  EXPECT_TRUE(solved.statistics.converged);
+  EXPECT_THAT(solved.mesh.validate(), ::testing::IsEmpty());
+  double worst = 0;
+  for (const Vertex& vertex : solved.mesh.vertices()) {
+    const double emission = luminance(scene.objects[vertex.surface.object].exitance);
+    const double b = emission + luminance(vertex.radiosity());
+    worst = std::max(worst, std::abs(b / radiosity - 1));
+  }
+  return worst;
+}
+
+TEST(GatheringFurnace, ThePapersRoom) {
+  EXPECT_LT(worst_deviation(manufactured(paper_room(), 20), 20), 0.005);
+}
+
+TEST(GatheringFurnace, SolidsCarvedOutOfSolids) {
+  const Scene scene = scene_of(R"(
+materials: {any: {reflectance: 0}}
+objects:
+  - {shape: {box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}}, material: any}
+  - shape:
+      difference:
+        - intersection:
+            - box: {lower: [0.3, 0.3, 0.2], upper: [0.7, 0.7, 0.6]}
+            - sphere: {center: [0.5, 0.5, 0.4], radius: 0.27}
+        - sphere: {center: [0.5, 0.5, 0.62], radius: 0.1}
+        - cylinder: {from: [0, 0.5, 0.4], to: [1, 0.5, 0.4], radius: 0.08}
+    material: any
+)");
+  EXPECT_LT(worst_deviation(manufactured(scene, 20), 20), 0.005);
+}
+
+TEST(GatheringFurnace, AHundredSmallObjects) {
+  Random random(7);
+  std::string yaml =
+      "materials: {any: {reflectance: 0}}\nobjects:\n"
+      "  - {shape: {box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}}, material: any}\n";
+  for (int i = 0; i < 100; ++i) {
+    const double x = 0.05 + 0.9 * random.uniform(), y = 0.05 + 0.9 * random.uniform(),
+                 z = 0.05 + 0.9 * random.uniform(), r = 0.01 + 0.03 * random.uniform();
+    yaml += i % 2 ? fmt::format("  - {{shape: {{sphere: {{center: [{}, {}, {}], radius: {}}}}}, "
+                                "material: any}}\n", x, y, z, r)
+                  : fmt::format("  - {{shape: {{box: {{lower: [{}, {}, {}], upper: [{}, {}, {}]}}}}, "
+                                "material: any}}\n", x - r, y - r, z - r, x + r, y + r, z + r);
+  }
+  EXPECT_LT(worst_deviation(manufactured(scene_of(yaml), 20), 20), 0.005);
+}
+
+TEST(Gathering, EnergyIsKept) {
+  const Statistics s = solve(paper_room(), to_tolerance(0.01)).statistics;
+  EXPECT_TRUE(s.converged);
+  EXPECT_NEAR(s.emitted_flux, 500, 0.5);
+  EXPECT_LT(s.escaped_flux, 1e-3 * s.emitted_flux);
+  EXPECT_LT(s.unshot_flux, 1e-3 * s.emitted_flux);
+  EXPECT_LT(std::abs(s.imbalance), 0.01 * s.emitted_flux);
+}
+
+TEST(Gathering, ResultsDoNotDependOnTheNumberOfThreads) {
+  std::vector<std::vector<Rgb>> light;
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    const Solved solved = solve(paper_room(), to_tolerance(0.05));
+    light.emplace_back();
+    for (const Vertex& vertex : solved.mesh.vertices()) light.back().push_back(vertex.irradiance);
+  }
+  EXPECT_EQ(light[0], light[1]);
+  EXPECT_EQ(light[0], light[2]);
+}
+
+TEST(Gathering, EndsWhenToldWithAValidSolution) {
+  for (const int looks : {0, 1, 5, 20}) {
+    int left = looks;
+    const Solved solved = solve(paper_room(), to_tolerance(0.01),
+                                [&](const Progress&) { return left-- > 0; });
+    EXPECT_TRUE(solved.statistics.interrupted);
+    EXPECT_FALSE(solved.statistics.converged);
+    EXPECT_GT(solved.mesh.triangle_count(), 100u);
+    EXPECT_THAT(solved.mesh.validate(), ::testing::IsEmpty());
+  }
+}
+
+TEST(Gathering, GoesOnFromACheckpointToTheSameBits) {
+  const Scene scene = paper_room();
+  std::vector<GatheringState> checkpoints;
+  const Solved whole = solve_by_gathering(
+      scene, to_tolerance(0.03),
+      {{}, [&](const GatheringState& state) { checkpoints.push_back(state); }});
+  ASSERT_GE(checkpoints.size(), 2u);
+  for (const GatheringState& checkpoint : {checkpoints.front(), checkpoints.back()}) {
+    const Solved rest = solve_by_gathering(scene, to_tolerance(0.03), {}, checkpoint);
+    ASSERT_EQ(rest.mesh.vertices().size(), whole.mesh.vertices().size());
+    for (VertexId v = 0; v < rest.mesh.vertices().size(); ++v) {
+      EXPECT_EQ(rest.mesh.vertex(v).irradiance, whole.mesh.vertex(v).irradiance);
+    }
+  }
+}
+
+TEST(Gathering, KeepsToTheBoundOnTriangles) {
+  Options options = to_tolerance(0.001);
+  options.max_triangles = 6000;
+  const Solved solved = solve(paper_room(), options);
+  EXPECT_FALSE(solved.statistics.converged);
+  EXPECT_LE(solved.mesh.triangle_count(), 6002u);
+}
+
+TEST(Gathering, ASceneWithoutLightIsRefused) {
+  EXPECT_THROW(solve(scene_of("materials: {m: {reflectance: 0.5}}\n"
+                              "objects: [{shape: {sphere: {center: [0, 0, 0], radius: 1}}, "
+                              "material: m}]"),
+                     to_tolerance(0.01)),
+               InputError);
+}
+
+}  // namespace
+}  // namespace isolux
