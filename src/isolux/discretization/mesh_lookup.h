@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "isolux/discretization/triangulation.h"
+
+namespace isolux {
+
+/// A point of a surface, as light is read off the mesh there: three vertices and their weights,
+/// which add up to 1 and none of which is negative.
+struct MeshPlace {
+  std::array<VertexId, 3> vertices{};
+  std::array<double, 3> weights{};
+};
+
+/// Finds the triangle over a point of the true surface, for very many points. It keeps the mesh as
+/// it stood when it was built; the vertices that it gives stay valid, since ids do.
+///
+/// Triangles are listed by the voxels that their boxes touch, in one grid for each size of
+/// triangle, so that fine and coarse parts of a mesh are equally quick. Memory: about 250 bytes a
+/// triangle.
+class MeshLookup {
+ public:
+  explicit MeshLookup(const Triangulation& mesh);
+  ~MeshLookup();
+  MeshLookup(const MeshLookup&) = delete;
+  MeshLookup& operator=(const MeshLookup&) = delete;
+
+  /// The place in the triangle that lies over `point`, close by, and faces as `normal` does to
+  /// within 60°; nothing where no triangle does. May be asked from many threads at once.
+  std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const;
+
+  /// As covering(), and where no triangle lies, the three nearest vertices that face as `normal`
+  /// does, each weighing one over the square of its distance, so that no light is lost there.
+  /// Nothing where no vertex faces that way, within 60° if possible, else within 90°.
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace isolux

@@ -1,0 +1,561 @@
+#include "isolux/radiosity/direct_light.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "isolux/core/parallel.h"
+#include "isolux/radiosity/form_factor.h"
+
+namespace isolux {
+namespace {
+
+using Index = std::uint32_t;
+
+/// Lattice cells across a flat piece.
+constexpr int kLines = 8;
+/// The points of the lattice that are looked at first: a knight's moves apart, so that each line of
+/// the lattice has one, and a long occluder as wide as a cell can't stay between them.
+constexpr bool looked_at_first(int i, int j) { return (i + 2 * j) % 5 == 0; }
+/// Halvings of a lattice line in search of the shadow's edge.
+constexpr int kHalvings = 7;
+/// Halvings, of a quarter of the chord, in search of how far the edge bows out of it.
+constexpr int kBowHalvings = 5;
+constexpr double kBowReach = 0.125;
+/// How many neighbours share shafts and doubts.
+constexpr std::size_t kGroup = 32;
+
+/// What an object adds to the balance of light.
+struct Share {
+  double flux = 0;       ///< emitted, lm
+  double absorbing = 0;  ///< (1 − ρ) × area, m²
+};
+
+Share share_of(const Scene& scene, Index index) {
+  const Object& object = scene.objects[index];
+  std::optional<double> area = surface_area(*object.shape);
+  if (!area) {
+    const Bounds box = object.shape->bounds();
+    const Vec3 d = box.upper - box.lower;
+    area = 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
+  }
+  const int sides = object.sides == Sides::both && !object.shape->solid() ? 2 : 1;
+  return {luminance(object.exitance) * *area,
+          (1 - luminance(scene.material_of(index).reflectance)) * sides * *area};
+}
+
+/// A flat convex piece that is measured by the closed form: a triangle, or a parallelogram.
+struct Piece {
+  std::array<Vec3, 4> corners;
+  std::size_t corner_count;
+  Vec3 normal;
+  Index first, end;  ///< its triangles of the lattice
+
+  std::span<const Vec3> polygon() const { return {corners.data(), corner_count}; }
+};
+
+struct LatticeTriangle {
+  std::array<Index, 3> points;
+  std::array<Index, 3> lines;  ///< line k joins points k and k + 1
+  Vec3 normal;
+  double area;
+};
+
+/// Between two points of the lattice; where the surface is curved it rises over the chord by
+/// 4 s (1 − s) rise.
+struct LatticeLine {
+  Index from, to;
+  Vec3 rise;
+};
+
+}  // namespace
+
+struct DirectLight::Light {
+  Rgb exitance;
+  /// One standard deviation, relative, from flat pieces that stand for a curved surface.
+  double flatness = 0;
+  Bounds bounds;
+  std::vector<Piece> pieces;
+  std::vector<Vec3> points;  ///< a hair above the surface
+  std::vector<LatticeLine> lines;
+  std::vector<LatticeTriangle> triangles;
+  std::vector<Index> first_look, second_look;  ///< the points, in two portions
+
+  Vec3 at(const LatticeLine& line, double s) const {
+    return points[line.from] + (points[line.to] - points[line.from]) * s +
+           line.rise * (4 * s * (1 - s));
+  }
+};
+
+namespace {
+
+using Light = DirectLight::Light;
+
+/// Builds a lattice, sharing lines between triangles.
+class LatticeBuilder {
+ public:
+  LatticeBuilder(Light& light, double lift) : light_(light), lift_(lift) {}
+
+  Index point(const Vec3& position, const Vec3& normal, bool early) {
+    light_.points.push_back(position + normal * lift_);
+    light_.bounds.include(light_.points.back());
+    const auto index = static_cast<Index>(light_.points.size() - 1);
+    (early ? light_.first_look : light_.second_look).push_back(index);
+    return index;
+  }
+
+  void triangle(const std::array<Index, 3>& points) {
+    const Vec3 a = light_.points[points[0]];
+    const Vec3 n = cross(light_.points[points[1]] - a, light_.points[points[2]] - a);
+    LatticeTriangle triangle{points, {}, normalized(n), length(n) / 2};
+    for (std::size_t k = 0; k < 3; ++k) triangle.lines[k] = line(points[k], points[(k + 1) % 3]);
+    light_.triangles.push_back(triangle);
+  }
+
+  /// A triangle or parallelogram corner + a u + b v as a piece with a lattice of its own.
+  void flat_piece(const Vec3& corner, const Vec3& u, const Vec3& v, bool is_triangle) {
+    const Vec3 normal = normalized(cross(u, v));
+    Piece piece{{corner, corner + u, corner + u + v, corner + v}, 4, normal, {}, {}};
+    if (is_triangle) piece.corners[2] = corner + v, piece.corner_count = 3;
+    piece.first = static_cast<Index>(light_.triangles.size());
+    std::array<std::array<Index, kLines + 1>, kLines + 1> at{};
+    const auto width = [&](int j) { return is_triangle ? kLines - j : kLines; };
+    for (int j = 0; j <= kLines; ++j) {
+      for (int i = 0; i <= width(j); ++i) {
+        at[j][i] = point(corner + u * (double(i) / kLines) + v * (double(j) / kLines), normal,
+                         looked_at_first(i, j));
+      }
+    }
+    for (int j = 0; j < kLines; ++j) {
+      for (int i = 0; i < width(j); ++i) {
+        triangle({at[j][i], at[j][i + 1], at[j + 1][i]});
+        if (i + 1 > width(j + 1)) continue;
+        triangle({at[j][i + 1], at[j + 1][i + 1], at[j + 1][i]});
+      }
+    }
+    piece.end = static_cast<Index>(light_.triangles.size());
+    light_.pieces.push_back(piece);
+  }
+
+  /// A curved surface: its triangles are pieces and lattice at once.
+  void curved(const TriangleSoup& soup) {
+    light_.flatness = 5e-4;
+    std::vector<Vec3> normals(soup.points.size());
+    for (const auto& [a, b, c] : soup.triangles) {
+      const Vec3 n = cross(soup.points[b] - soup.points[a], soup.points[c] - soup.points[a]);
+      for (const Index corner : {a, b, c}) normals[corner] += n;
+    }
+    for (std::size_t i = 0; i < soup.points.size(); ++i) {
+      normals[i] = normalized(normals[i]);
+      point(soup.points[i], normals[i], true);
+    }
+    for (const auto& corners : soup.triangles) {
+      const auto [a, b, c] = corners;
+      const auto first = static_cast<Index>(light_.triangles.size());
+      triangle(corners);
+      light_.pieces.push_back({{soup.points[a], soup.points[b], soup.points[c], {}},
+                               3,
+                               light_.triangles.back().normal,
+                               first,
+                               first + 1});
+    }
+    for (LatticeLine& line : light_.lines) {
+      const Vec3 turned = normals[line.to] - normals[line.from];
+      const Vec3 chord = soup.points[line.to] - soup.points[line.from];
+      // To second order, the surface is a parabola over its chord; a tenth more for the rest.
+      const double rise = 1.1 * std::max(0.0, dot(turned, chord)) / 8;
+      line.rise = normalized(normals[line.from] + normals[line.to]) * rise;
+    }
+  }
+
+ private:
+  Index line(Index a, Index b) {
+    const auto [found, born] =
+        known_.try_emplace(std::minmax(a, b), static_cast<Index>(light_.lines.size()));
+    if (born) light_.lines.push_back({a, b, {}});
+    return found->second;
+  }
+
+  Light& light_;
+  double lift_;
+  std::map<std::pair<Index, Index>, Index> known_;
+};
+
+/// Cuts an object's surface into pieces with their lattices.
+std::shared_ptr<const Light> light_of(const Object& object, double lift) {
+  constexpr std::size_t kMostFlat = 16;  // triangles; of more, each is small enough by itself
+  const double size = object.shape->bounds().diagonal();
+  const TriangleSoup soup = *object.shape->triangulate(size);
+  auto light = std::make_shared<Light>();
+  light->exitance = object.exitance;
+  LatticeBuilder builder(*light, lift);
+  const std::vector<Vec3>& p = soup.points;
+  const double tolerance = 1e-9 * size;
+  if (soup.triangles.size() > kMostFlat) {
+    builder.curved(*object.shape->triangulate(size / kLines));
+    return light;
+  }
+  for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+    const auto [a, b, c] = soup.triangles[i];
+    // Two triangles in a row that make a parallelogram: (a, b, c) and (a, c, d).
+    bool pair = false;
+    if (i + 1 < soup.triangles.size()) {
+      const auto next = soup.triangles[i + 1];
+      for (std::size_t k = 0; k < 3 && !pair; ++k) {
+        const std::array<Index, 3> t{soup.triangles[i][k], soup.triangles[i][(k + 1) % 3],
+                                     soup.triangles[i][(k + 2) % 3]};
+        for (std::size_t m = 0; m < 3 && !pair; ++m) {
+          const Vec3 fourth = p[t[0]] + p[t[2]] - p[t[1]];
+          pair = distance(p[next[m]], p[t[0]]) <= tolerance &&
+                 distance(p[next[(m + 1) % 3]], p[t[2]]) <= tolerance &&
+                 distance(p[next[(m + 2) % 3]], fourth) <= tolerance;
+          if (pair) builder.flat_piece(p[t[1]], p[t[2]] - p[t[1]], p[t[0]] - p[t[1]], false);
+        }
+      }
+    }
+    if (pair) {
+      ++i;
+    } else {
+      builder.flat_piece(p[a], p[b] - p[a], p[c] - p[a], true);
+    }
+  }
+  return light;
+}
+
+/// Whether some of the piece stands above the receiver's horizon, and the receiver before it.
+bool may_see(const Piece& piece, const Receiver& receiver, double epsilon) {
+  if (dot(receiver.point - piece.corners[0], piece.normal) <= epsilon) return false;
+  return std::any_of(
+      piece.corners.begin(), piece.corners.begin() + piece.corner_count,
+      [&](const Vec3& corner) { return dot(corner - receiver.point, receiver.normal) > epsilon; });
+}
+
+/// What is found out about one light by a group of receivers; kept for its memory.
+class Group {
+ public:
+  Group(const RayCaster& rays, const Light& light, std::span<const Receiver> receivers)
+      : rays_(rays), light_(light), receivers_(receivers) {}
+
+  /// Adds the light to each receiver's irradiance, and to the variance of its luminance.
+  void light_up(std::span<Rgb> irradiance, std::span<double> variance) {
+    facing_.clear();
+    Bounds starts;
+    for (Index i = 0; i < receivers_.size(); ++i) {
+      const bool sees = std::any_of(
+          light_.pieces.begin(), light_.pieces.end(),
+          [&](const Piece& piece) { return may_see(piece, receivers_[i], rays_.epsilon()); });
+      if (!sees) continue;
+      facing_.push_back(i);
+      starts.include(receivers_[i].point);
+    }
+    if (facing_.empty()) return;
+    const bool clear = rays_.clear(starts, light_.bounds);
+    if (!clear) {
+      const std::size_t n = light_.points.size();
+      open_.assign(facing_.size() * n, 0);
+      look(light_.first_look);
+      if (doubtful()) {
+        look(light_.second_look);
+        search_edges();
+        search_bows();
+      }
+    }
+    for (std::size_t k = 0; k < facing_.size(); ++k) {
+      const Index i = facing_[k];
+      double factor = 0, spread = 0;
+      for (const Piece& piece : light_.pieces) {
+        if (!may_see(piece, receivers_[i], rays_.epsilon())) continue;
+        add_piece(piece, k, clear, factor, spread);
+      }
+      irradiance[i] += light_.exitance * factor;
+      spread += light_.flatness * light_.flatness * factor * factor;
+      const double m = luminance(light_.exitance);
+      variance[i] += m * m * spread;
+    }
+  }
+
+ private:
+  const Receiver& receiver(std::size_t k) const { return receivers_[facing_[k]]; }
+  Vec3 start(std::size_t k) const {
+    return receiver(k).point + receiver(k).normal * rays_.epsilon();
+  }
+  std::uint8_t* open(std::size_t k) { return open_.data() + k * light_.points.size(); }
+
+  /// Rays from all to these points; all to one point together, since such rays run close.
+  void look(std::span<const Index> points) {
+    segments_.clear();
+    for (const Index p : points) {
+      for (std::size_t k = 0; k < facing_.size(); ++k) {
+        segments_.push_back({start(k), light_.points[p]});
+      }
+    }
+    blocked_.resize(segments_.size());
+    rays_.occluded(segments_, blocked_);
+    std::size_t ray = 0;
+    for (const Index p : points) {
+      for (std::size_t k = 0; k < facing_.size(); ++k) open(k)[p] = !blocked_[ray++];
+    }
+  }
+
+  int seen_corners(std::size_t k, const LatticeTriangle& triangle) const {
+    const std::uint8_t* open = open_.data() + k * light_.points.size();
+    return open[triangle.points[0]] + open[triangle.points[1]] + open[triangle.points[2]];
+  }
+
+  /// Whether the group does not see all of the light, or nothing of it, as one man.
+  bool doubtful() {
+    const std::uint8_t seen = open(0)[light_.first_look[0]];
+    for (std::size_t k = 0; k < facing_.size(); ++k) {
+      for (const Index p : light_.first_look) {
+        if (open(k)[p] != seen) {
+          all_alike_ = false;
+          return true;
+        }
+      }
+    }
+    all_alike_ = true;
+    all_seen_ = seen;
+    return false;
+  }
+
+  /// On each line between a seen and a hidden point, where the one begins to be the other.
+  void search_edges() {
+    const std::size_t n = light_.lines.size();
+    crossing_.assign(facing_.size() * n, 0);
+    crossings_.clear();
+    for (std::size_t k = 0; k < facing_.size(); ++k) {
+      for (Index l = 0; l < n; ++l) {
+        const LatticeLine& line = light_.lines[l];
+        if (open(k)[line.from] != open(k)[line.to]) {
+          crossings_.push_back({static_cast<Index>(k), l, 0});
+        }
+      }
+    }
+    double step = 0.5;
+    blocked_.resize(crossings_.size());
+    for (int round = 0; round < kHalvings; ++round, step /= 2) {
+      segments_.clear();
+      for (const Crossing& c : crossings_) {
+        segments_.push_back({start(c.receiver), light_.at(light_.lines[c.line], c.s + step)});
+      }
+      rays_.occluded(segments_, blocked_);
+      for (std::size_t i = 0; i < crossings_.size(); ++i) {
+        Crossing& c = crossings_[i];
+        const bool as_start =
+            (blocked_[i] == 0) == (open(c.receiver)[light_.lines[c.line].from] != 0);
+        if (as_start) c.s += step;
+      }
+    }
+    for (const Crossing& c : crossings_) crossing_[c.receiver * n + c.line] = c.s + step;
+  }
+
+  /// In each triangle that the edge cuts, how far it bows out of the chord between the two cuts.
+  void search_bows() {
+    const std::size_t n = light_.triangles.size();
+    bow_.assign(facing_.size() * n, 0);
+    bows_.clear();
+    for (std::size_t k = 0; k < facing_.size(); ++k) {
+      for (Index t = 0; t < n; ++t) {
+        if (const int seen = seen_corners(k, light_.triangles[t]); seen == 1 || seen == 2) {
+          bows_.push_back(chord_of(static_cast<Index>(k), t));
+        }
+      }
+    }
+    double step = kBowReach;
+    blocked_.resize(bows_.size());
+    for (int round = 0; round < kBowHalvings; ++round, step /= 2) {
+      segments_.clear();
+      for (const Bow& bow : bows_) {
+        segments_.push_back({start(bow.receiver), bow.middle + bow.outward * bow.s});
+      }
+      rays_.occluded(segments_, blocked_);
+      for (std::size_t i = 0; i < bows_.size(); ++i) {
+        const bool as_tip = (blocked_[i] == 0) == bows_[i].odd_seen;
+        bows_[i].s += as_tip ? step / 2 : -step / 2;
+      }
+    }
+    for (const Bow& bow : bows_) {
+      // A parabola over its chord has two thirds of the box around it.
+      const double area = 2. / 3 * bow.s * length_squared(bow.outward);
+      bow_[bow.receiver * n + bow.triangle] = area / light_.triangles[bow.triangle].area;
+    }
+  }
+
+  /// Where the edge cuts line k of the triangle, in parts of the line from its point `from`.
+  double cut(std::size_t k, const LatticeTriangle& triangle, std::size_t line, Index from) const {
+    const Index l = triangle.lines[line];
+    const double s = crossing_[k * light_.lines.size() + l];
+    return light_.lines[l].from == from ? s : 1 - s;
+  }
+
+  /// How a shadow's edge runs through a triangle: which corner is on one side alone, and where, in
+  /// parts of the sides, the edge cuts those that lead from it to the next and the last corner.
+  struct EdgeCut {
+    std::size_t odd;
+    double next, last;
+    bool odd_seen;
+  };
+  EdgeCut cut_of(std::size_t k, const LatticeTriangle& triangle) const {
+    const auto seen = [&](std::size_t corner) {
+      return open_[k * light_.points.size() + triangle.points[corner]] != 0;
+    };
+    const std::size_t odd = seen(0) == seen(1) ? 2 : seen(1) == seen(2) ? 0 : 1;
+    const Index tip = triangle.points[odd];
+    return {odd, cut(k, triangle, odd, tip), cut(k, triangle, (odd + 2) % 3, tip), seen(odd)};
+  }
+
+  /// Adds the form factor of what is seen of the piece, and the variance of that.
+  void add_piece(const Piece& piece, std::size_t k, bool clear, double& factor, double& variance) {
+    constexpr double kWidth = 0.29 / (1 << kHalvings);  // standard deviation within the last step
+    constexpr double kBent = 0.01, kBowDoubt = 0.35;
+    const Receiver& r = receiver(k);
+    if (!clear && all_alike_ && !all_seen_) return;
+    if (clear || all_alike_) {
+      factor += form_factor(r.point, r.normal, piece.polygon());
+      return;
+    }
+    // Far away the closed form of the whole counts, times the part that is seen by the measure of
+    // thin pencils: cos cos' / r² changes so little within a lattice triangle that its middle
+    // stands for it. Near by, or on the horizon, each seen part is measured by itself.
+    const bool thin = !near(piece, r);
+    double whole = 0, seen = 0, spread = 0, shift = 0;
+    for (Index t = piece.first; t < piece.end; ++t) {
+      const LatticeTriangle& triangle = light_.triangles[t];
+      const int corners = seen_corners(k, triangle);
+      if (!thin && corners == 0) continue;
+      const double weight = thin ? pencil(triangle, r) : exact(triangle, r);
+      whole += weight;
+      if (corners == 3) seen += weight;
+      if (corners == 0 || corners == 3) continue;
+      const EdgeCut cut = cut_of(k, triangle);
+      const double bow = bow_[k * light_.triangles.size() + t] * (cut.odd_seen ? 1 : -1);
+      const double part = cut.odd_seen ? cut.next * cut.last : 1 - cut.next * cut.last;
+      seen += thin ? weight * part : exact_part(triangle, cut, r);
+      seen += weight * (std::clamp(part + bow, 0.0, 1.0) - part);
+      const double bent = weight * (kBent + kBowDoubt * std::abs(bow));
+      spread += bent * bent;
+      shift += weight * (cut.next + cut.last) * kWidth;
+    }
+    // Where an edge runs along the lattice, all its cuts are off by the same.
+    spread += shift * shift;
+    if (!(seen > 0)) return;
+    const double scale = thin ? form_factor(r.point, r.normal, piece.polygon()) / whole : 1;
+    factor += scale * seen;
+    variance += scale * scale * spread;
+  }
+
+  /// Whether the lattice is coarse as seen from here, or the horizon cuts it.
+  static bool near(const Piece& piece, const Receiver& r) {
+    const double size = distance(piece.corners[0], piece.corners[2]);
+    return distance((piece.corners[0] + piece.corners[2]) * 0.5, r.point) < 1.5 * size ||
+           std::any_of(piece.polygon().begin(), piece.polygon().end(),
+                       [&](const Vec3& corner) { return dot(corner - r.point, r.normal) <= 0; });
+  }
+
+  double exact(const LatticeTriangle& triangle, const Receiver& r) const {
+    const auto& [a, b, c] = triangle.points;
+    const std::array<Vec3, 3> corners{light_.points[a], light_.points[b], light_.points[c]};
+    return form_factor(r.point, r.normal, corners);
+  }
+
+  double exact_part(const LatticeTriangle& triangle, const EdgeCut& cut, const Receiver& r) const {
+    const Vec3& tip = light_.points[triangle.points[cut.odd]];
+    const Vec3& next = light_.points[triangle.points[(cut.odd + 1) % 3]];
+    const Vec3& last = light_.points[triangle.points[(cut.odd + 2) % 3]];
+    const Vec3 on_next = tip + (next - tip) * cut.next, on_last = tip + (last - tip) * cut.last;
+    if (cut.odd_seen) return form_factor(r.point, r.normal, std::array{tip, on_next, on_last});
+    return form_factor(r.point, r.normal, std::array{on_next, next, last, on_last});
+  }
+
+  /// cos cos' A / (π r²) of the triangle's middle.
+  double pencil(const LatticeTriangle& triangle, const Receiver& r) const {
+    const auto& [a, b, c] = triangle.points;
+    const Vec3 d = (light_.points[a] + light_.points[b] + light_.points[c]) / 3 - r.point;
+    const double squared = length_squared(d);
+    return std::max(0.0, dot(d, r.normal)) * std::max(0.0, -dot(d, triangle.normal)) *
+           triangle.area / (std::numbers::pi * squared * squared);
+  }
+
+  /// The search for how far the edge bows out of its chord in a triangle.
+  struct Bow {
+    Index receiver, triangle;
+    Vec3 middle;   ///< of the chord
+    Vec3 outward;  ///< away from the odd corner, across the chord and as long as it
+    double s;      ///< the bow in parts of that
+    bool odd_seen;
+  };
+  Bow chord_of(Index k, Index t) const {
+    const LatticeTriangle& triangle = light_.triangles[t];
+    const EdgeCut cut = cut_of(k, triangle);
+    const Vec3& tip = light_.points[triangle.points[cut.odd]];
+    const Vec3 a = tip + (light_.points[triangle.points[(cut.odd + 1) % 3]] - tip) * cut.next;
+    const Vec3 b = tip + (light_.points[triangle.points[(cut.odd + 2) % 3]] - tip) * cut.last;
+    return {k, t, (a + b) * 0.5, cross(b - a, triangle.normal), 0, cut.odd_seen};
+  }
+
+  struct Crossing {
+    Index receiver, line;
+    double s;
+  };
+
+  const RayCaster& rays_;
+  const Light& light_;
+  std::span<const Receiver> receivers_;
+  std::vector<Index> facing_;
+  bool all_alike_ = false, all_seen_ = false;
+  std::vector<std::uint8_t> open_;  // by receiver, then point
+  std::vector<double> crossing_;    // by receiver, then line
+  std::vector<Crossing> crossings_;
+  std::vector<double> bow_;  // by receiver, then triangle: what the edge's bow adds, in parts of it
+  std::vector<Bow> bows_;
+  std::vector<Segment> segments_;
+  std::vector<std::uint8_t> blocked_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> separate_lights(const Scene& scene) {
+  constexpr double kBright = 1.5;
+  std::vector<Share> shares;
+  for (Index i = 0; i < scene.objects.size(); ++i) shares.push_back(share_of(scene, i));
+  std::vector<std::uint8_t> separate(scene.objects.size(), 0);
+  for (Index i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!object.emits()) continue;
+    Share others;
+    for (Index k = 0; k < shares.size(); ++k) {
+      if (k == i) continue;
+      others.flux += shares[k].flux;
+      others.absorbing += shares[k].absorbing;
+    }
+    separate[i] = luminance(object.exitance) * others.absorbing >= kBright * others.flux &&
+                  object.shape->triangulate(object.shape->bounds().diagonal());
+  }
+  return separate;
+}
+
+DirectLight::DirectLight(const RayCaster& rays)
+    : rays_(rays), separate_(separate_lights(rays.scene())) {
+  const Scene& scene = rays.scene();
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (!separate_[i]) continue;
+    const Object& object = scene.objects[i];
+    lights_.push_back(light_of(object, rays.epsilon()));
+  }
+}
+
+void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
+                             std::span<double> error) const {
+  parallel_for(receivers.size(), kGroup, [&](std::size_t begin, std::size_t end) {
+    const std::size_t n = end - begin;
+    std::fill_n(irradiance.begin() + begin, n, Rgb{});
+    std::array<double, kGroup> variance{};
+    for (const auto& light : lights_) {
+      Group(rays_, *light, receivers.subspan(begin, n))
+          .light_up(irradiance.subspan(begin, n), variance);
+    }
+    for (std::size_t i = 0; i < n; ++i) error[begin + i] = std::sqrt(variance[i]);
+  });
+}
+
+}  // namespace isolux

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "isolux/core/color.h"
+#include "isolux/radiosity/visibility.h"
+#include "isolux/raycast/ray_caster.h"
+
+namespace isolux {
+
+/// Which objects are worth treating as lights of their own, by object (1 or 0): those whose
+/// exitance is more than 1.5 × the mean radiosity of all others, estimated as their emitted flux
+/// over their Σ (1 − ρ) A, and whose shape can be cut into triangles. The rest do not stand out, so
+/// that rays over the hemisphere find them well; in a furnace, where every surface has the same
+/// radiosity, that is all of them. Where the area of a shape is not known, that of its box stands
+/// in.
+std::vector<std::uint8_t> separate_lights(const Scene& scene);
+
+/// The light that arrives straight from the separate lights of a scene.
+///
+/// A light seen whole counts by the closed form (form_factor()). Elsewhere rays to the points of a
+/// lattice over the light say what of it is seen; on lattice lines between a seen and a hidden
+/// point the shadow's edge is searched, and what it cuts off is left out.
+class DirectLight {
+ public:
+  /// `rays` must outlive it.
+  explicit DirectLight(const RayCaster& rays);
+
+  /// separate_lights() of the scene.
+  std::span<const std::uint8_t> separate() const { return separate_; }
+
+  /// The direct irradiance (lx) at each receiver, and one standard deviation of its luminance (lx).
+  /// Neighbours in the list should be neighbours in space: groups of them share what is found out.
+  /// Runs in parallel; each value depends on its group only, which is given by its place in the
+  /// list.
+  void irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
+                  std::span<double> error) const;
+
+  // Of use inside: a light as a lattice of points, lines between them and triangles.
+  struct Light;
+
+ private:
+  const RayCaster& rays_;
+  std::vector<std::uint8_t> separate_;
+  std::vector<std::shared_ptr<const Light>> lights_;
+};
+
+}  // namespace isolux

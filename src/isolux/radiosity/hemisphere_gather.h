@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "isolux/discretization/mesh_lookup.h"
+#include "isolux/radiosity/visibility.h"
+
+namespace isolux {
+
+/// Where a ray over a hemisphere lands: a place in the mesh, and whose surface it is. 20 bytes.
+struct Landing {
+  /// Which entry of the surfaces' table: 3 × object, + 1 on its back, which does not emit, + 2
+  /// where it only emits, the mesh having no vertex there; the last entry is what is black, because
+  /// nothing is there or it faces away.
+  std::uint32_t surface = 0;
+  std::array<VertexId, 3> vertices{};
+  /// Of the second and third vertex, in units of 1 / 65535; the first has the rest.
+  std::array<std::uint16_t, 2> weights{};
+};
+static_assert(sizeof(Landing) == 20);
+
+/// Irradiance with its error.
+struct Gathered {
+  Rgb irradiance;    ///< lx
+  double error = 0;  ///< one standard deviation of its luminance, lx
+};
+
+/// Light gathered by rays over the hemisphere (the paper's rays turned round): each ray finds the
+/// true surface, and the radiosity there is ρ E, E interpolated in the mesh, plus the emission of
+/// objects that are not lights of their own. Where the rays land is kept, so that transport is
+/// repeated without rays while E changes.
+///
+/// The directions are those of a square of grid × grid cells, one point jittered in each, mapped to
+/// the disk (Shirley & Chiu 1997), turned by an angle of the receiver's own and lifted to the
+/// hemisphere (Malley 1988): the density goes with the cosine, and all rays weigh the same.
+class HemisphereGather {
+ public:
+  /// `separate`, by object: 1 where its emission is left out here because it is gathered as a
+  /// light (separate_lights() of direct_light.h). `rays` and `mesh` must outlive this; triangles
+  /// that the mesh gets later are not seen, but vertices stay valid.
+  HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
+                   std::span<const std::uint8_t> separate);
+
+  /// The row of one receiver: where its rays land, cell by cell, into `row` (grid² entries).
+  /// The same seed and id give the same directions.
+  void trace(const Receiver& receiver, int grid, std::uint64_t seed, std::uint64_t id,
+             std::span<Landing> row) const;
+
+  /// The rows of many receivers, traced in parallel, one after the other in the result; receiver i
+  /// has the id ids[i].
+  std::vector<Landing> trace(std::span<const Receiver> receivers,
+                             std::span<const std::uint32_t> ids, int grid,
+                             std::uint64_t seed) const;
+
+  /// The irradiance that the row's surfaces give with `irradiance` (lx) at the mesh's vertices.
+  Rgb gather(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
+
+  /// The same with the error of having only so many rays, from the second differences between
+  /// neighbouring cells: (f₋ − 2f + f₊)² / 6 is on average the variance of a jittered point in the
+  /// middle cell where the radiosity is linear, and not less elsewhere. Of a grid of less than 3
+  /// cells a side, the error is the spread of all rays.
+  Gathered gather_with_error(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
+
+ private:
+  Landing land(const Ray& ray) const;
+  Rgb radiosity(const Landing& landing, std::span<const Rgb> irradiance) const;
+
+  /// What a surface does to light.
+  struct Surface {
+    Rgb reflectance;
+    Rgb emission;  ///< lm/m²
+  };
+
+  const RayCaster& rays_;
+  MeshLookup lookup_;
+  std::vector<Surface> surfaces_;  // by Landing::surface
+};
+
+}  // namespace isolux

@@ -1,0 +1,153 @@
+#include "isolux/radiosity/hemisphere_gather.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "isolux/core/parallel.h"
+#include "support/meshes.h"
+#include "support/scenes.h"
+
+namespace isolux {
+namespace {
+
+Scene box_room(double side, double reflectance, double exitance) {
+  return scene_of(fmt::format(
+      "materials: {{m: {{reflectance: {1}}}}}\nobjects:\n"
+      "  - {{shape: {{box: {{lower: [0, 0, 0], upper: [{0}, {0}, {0}], inward: true}}}}, material: "
+      "m, emission: {{exitance: {2}}}}}\n",
+      side, reflectance, exitance));
+}
+
+std::vector<std::uint32_t> first_ids(std::size_t n) {
+  std::vector<std::uint32_t> ids(n);
+  std::iota(ids.begin(), ids.end(), 0);
+  return ids;
+}
+
+/// Repeats E = direct + what the rows gather, until nothing changes by more than 1e-6 of it.
+std::vector<Rgb> settle(const HemisphereGather& gather, std::span<const Landing> rows,
+                        std::span<const Rgb> direct) {
+  const std::size_t n = direct.size(), cells = rows.size() / n;
+  std::vector<Rgb> irradiance(direct.begin(), direct.end()), next(n);
+  for (double change = 1; change > 1e-6;) {
+    change = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      next[i] = direct[i] + gather.gather(rows.subspan(i * cells, cells), irradiance);
+      change = std::max(change, std::abs(next[i].g - irradiance[i].g) / next[i].g);
+    }
+    irradiance.swap(next);
+  }
+  return irradiance;
+}
+
+TEST(HemisphereGather, IsExactInAFurnaceWithAnyNumberOfRays) {
+  // Every surface emits B₀ (1 − ρ) and reflects ρ: B = B₀ and E = B₀ everywhere.
+  constexpr double kB0 = 7;
+  for (const double rho : {0.2, 0.9}) {
+    const Scene scene = box_room(1, rho, kB0 * (1 - rho));
+    const RayCaster rays(scene);
+    const Triangulation mesh = box_room_mesh({1, 1, 1}, 4, gray(rho));
+    ASSERT_EQ(mesh.validate(), std::vector<std::string>{});
+    const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>{0});
+    const std::vector<Receiver> receivers = receivers_of(mesh);
+    for (const int grid : {1, 2, 5}) {
+      const auto rows = gather.trace(receivers, first_ids(receivers.size()), grid, 3);
+      const std::vector<Rgb> zero(receivers.size());
+      for (const Rgb& e : settle(gather, rows, zero)) EXPECT_NEAR(e.g, kB0, 1e-4 * kB0);
+    }
+  }
+}
+
+TEST(HemisphereGather, InterreflectionInACubeWithALampInItsMiddle) {
+  ISOLUX_NEED_SHARED();
+  std::ifstream in(shared_dir() / "validation/cases/cube_pointwise.json");
+  const auto json = nlohmann::json::parse(in);
+  // The lamp is a point: its direct light is put in by the inverse square of the distance.
+  const auto direct_at = [](const Receiver& r) {
+    const Vec3 d = Vec3{2, 2, 2} - r.point;
+    return gray(10000 / (4 * std::numbers::pi) * dot(d, r.normal) / std::pow(length(d), 3));
+  };
+  for (const double rho : {0.2, 0.5, 0.8}) {
+    const Scene scene = box_room(4, rho, 0);
+    const RayCaster rays(scene);
+    const Triangulation mesh = box_room_mesh({4, 4, 4}, 24, gray(rho));
+    const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>{0});
+    const std::vector<Receiver> receivers = receivers_of(mesh);
+    std::vector<Rgb> direct;
+    for (const Receiver& r : receivers) direct.push_back(direct_at(r));
+    const auto rows = gather.trace(receivers, first_ids(receivers.size()), 16, 1);
+    const std::vector<Rgb> irradiance = settle(gather, rows, direct);
+
+    const auto& expected = json.at("expected").at("values").at(fmt::format("R1cube_rho{}", rho));
+    std::vector<Landing> row(64 * 64);
+    for (const auto& point : json.at("points")) {
+      const Receiver receiver{{point.at("pos")[0], point.at("pos")[1], 0}, {0, 0, 1}};
+      gather.trace(receiver, 64, 2, 0, row);
+      const double found = direct_at(receiver).g + gather.gather(row, irradiance).g;
+      const double value = expected.at(point.at("id").get<std::string>()).at("value");
+      EXPECT_NEAR(found, value, 0.005 * value) << rho << " " << point.at("id");
+    }
+  }
+}
+
+TEST(HemisphereGather, ErrorsAreHonest) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  // Light that changes steadily over the walls, with a jump at the edges; the ball and its pedestal
+  // are left without triangles, so that their light comes from the walls' nearest vertices.
+  Triangulation mesh = box_room_mesh({1, 1, 1}, 10, gray(0.6));
+  std::vector<Rgb> irradiance;
+  for (const Vertex& v : mesh.vertices()) {
+    irradiance.push_back(gray(1 + std::sin(5 * v.position.x) + 2 * v.position.z));
+  }
+  const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>(4, 0));
+  for (const int grid : {4, 8, 20}) {
+    constexpr int kRuns = 40;
+    double spread = 0, estimated = 0;
+    std::vector<Landing> row(static_cast<std::size_t>(grid * grid));
+    for (std::size_t i = 0; i < mesh.vertices().size(); i += 31) {
+      const Vertex& vertex = mesh.vertices()[i];
+      double sum = 0, squares = 0;
+      for (std::uint64_t run = 0; run < kRuns; ++run) {
+        gather.trace({vertex.gather_point, vertex.normal}, grid, run, i, row);
+        const Gathered gathered = gather.gather_with_error(row, irradiance);
+        const double e = luminance(gathered.irradiance);
+        EXPECT_NEAR(e, luminance(gather.gather(row, irradiance)), 1e-12 * e);
+        sum += e, squares += e * e;
+        estimated += gathered.error * gathered.error / kRuns;
+      }
+      spread += (squares - sum * sum / kRuns) / (kRuns - 1);
+    }
+    const double ratio = std::sqrt(estimated / spread);
+    EXPECT_GT(ratio, 0.8) << grid;
+    EXPECT_LT(ratio, 1.6) << grid;
+  }
+}
+
+TEST(HemisphereGather, TheSameRowsOnAnyNumberOfThreads) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  const Triangulation mesh = box_room_mesh({1, 1, 1}, 6, gray(0.6));
+  const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>(4, 0));
+  const std::vector<Receiver> receivers = receivers_of(mesh);
+  std::vector<std::vector<Rgb>> sums;
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    const auto rows = gather.trace(receivers, first_ids(receivers.size()), 6, 9);
+    sums.emplace_back();
+    std::vector<Rgb> irradiance(receivers.size(), {1, 2, 3});
+    for (std::size_t i = 0; i < receivers.size(); ++i) {
+      irradiance[i].r = static_cast<double>(i);
+      sums.back().push_back(gather.gather(std::span(rows).subspan(i * 36, 36), irradiance));
+    }
+  }
+  EXPECT_EQ(sums[0], sums[1]);
+}
+
+}  // namespace
+}  // namespace isolux
