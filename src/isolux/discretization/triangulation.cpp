@@ -81,6 +81,44 @@ Triangulation::Triangulation(const Rules& rules, const Bounds& bounds)
   }
 }
 
+Triangulation::Triangulation(const Rules& rules, const Bounds& bounds,
+                             std::vector<Vertex> vertices, std::vector<Triangle> triangles)
+    : Triangulation(rules, bounds) {
+  const auto all_below = [](const auto& ids, std::size_t limit) {
+    return std::all_of(ids.begin(), ids.end(), [&](auto id) { return id < limit; });
+  };
+  for (const Vertex& v : vertices) {
+    if (!all_below(v.neighbours, vertices.size()) || !all_below(v.triangles, triangles.size())) {
+      throw InputError("is damaged: a vertex has a neighbour that does not exist");
+    }
+  }
+  for (const Triangle& t : triangles) {
+    if (!all_below(t.vertices, vertices.size())) {
+      throw InputError("is damaged: a triangle has a vertex that does not exist");
+    }
+    alive_ += t.alive;
+  }
+  vertices_ = std::move(vertices);
+  triangles_ = std::move(triangles);
+  for (VertexId v = 0; v < vertices_.size(); ++v) grid_.insert(v, vertices_[v].position);
+  const std::vector<std::string> violations = validate();
+  if (!violations.empty()) throw InputError("is damaged: " + violations.front());
+}
+
+void Triangulation::compact() {
+  std::vector<TriangleId> id_now(triangles_.size());
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    if (!triangles_[i].alive) continue;
+    id_now[i] = static_cast<TriangleId>(n);
+    triangles_[n++] = triangles_[i];
+  }
+  triangles_.resize(n);
+  for (Vertex& vertex : vertices_) {
+    for (TriangleId& t : vertex.triangles) t = id_now[t];
+  }
+}
+
 double Triangulation::least_spacing() const { return 0.2 * std::sqrt(rules_.min_area); }
 
 bool Triangulation::compatible(const Vec3& normal_a, const Vec3& normal_b) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "isolux/core/error.h"
 #include "isolux/core/parallel.h"
@@ -43,12 +44,35 @@ constexpr double kMeanSquare = 16.0 / 45;
 
 // E_i in the middle of an edge is off its ends' mean by this part of their difference, as a rule.
 constexpr double kUsualBend = 0.2;
+// Or by this part of E_i where what is seen is as close as half the edge is long.
+constexpr double kUsualCurve = 0.25;
 
 // Rays over a hemisphere: cells a side.
 constexpr int kCoarsestGrid = 8, kFinestGrid = 256;
 
 // 95 of 100 errors are smaller than so many standard deviations.
 constexpr double kConfidence = 2;
+
+/// The point of the true surface over the middle of edge ab; nothing where none is close, or the
+/// nearest lies inside a solid or reflects otherwise.
+std::optional<SurfacePoint> middle_of_edge(const Triangulation& mesh, const RayCaster& rays,
+                                           VertexId a, VertexId b) {
+  constexpr double kReach = 0.25;  // of the edge's length: more than surfaces within α_n rise
+  const Vertex &p = mesh.vertex(a), &q = mesh.vertex(b);
+  const Vec3 normal = normalized(p.normal + q.normal);
+  const double reach = kReach * distance(p.position, q.position) + 16 * rays.epsilon();
+  thread_local std::vector<SurfaceHit> hits;
+  rays.all_hits({(p.position + q.position) / 2 + normal * reach, -normal}, {0, 2 * reach}, hits);
+  const SurfaceHit* nearest = nullptr;
+  for (const SurfaceHit& hit : hits) {
+    if (dot(hit.normal, normal) < 0.5) continue;
+    if (!nearest || std::abs(hit.t - reach) < std::abs(nearest->t - reach)) nearest = &hit;
+  }
+  if (!nearest || rays.buried(nearest->point, nearest->normal)) return std::nullopt;
+  const Rgb reflectance = rays.scene().material_of(nearest->surface.object).reflectance;
+  if (reflectance != p.reflectance) return std::nullopt;
+  return SurfacePoint{nearest->point, nearest->normal, nearest->surface, reflectance};
+}
 
 /// An edge of living triangles, a < b.
 struct Edge {
@@ -185,21 +209,19 @@ class Gathering {
     std::vector<Vec3> points;
     for (std::size_t v = first; v < n; ++v) points.push_back(mesh_.vertex(VertexId(v)).position);
     const std::vector<std::uint32_t> order = z_order(points);
-    parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      std::vector<Receiver> receivers;
-      std::vector<Rgb> irradiance(end - begin);
-      std::vector<double> deviation(end - begin);
-      for (std::size_t i = begin; i < end; ++i) {
-        const Vertex& vertex = mesh_.vertex(VertexId(first + order[i]));
-        receivers.push_back({vertex.gather_point, vertex.normal});
-      }
-      lights_.irradiance(receivers, irradiance, deviation);
-      for (std::size_t i = begin; i < end; ++i) {
-        VertexLight& light = state_.light[first + order[i]];
-        light.direct = irradiance[i - begin];
-        light.direct_deviation = deviation[i - begin];
-      }
-    });
+    std::vector<Receiver> receivers;
+    for (std::uint32_t i : order) {
+      const Vertex& vertex = mesh_.vertex(static_cast<VertexId>(first + i));
+      receivers.push_back({vertex.gather_point, vertex.normal});
+    }
+    std::vector<Rgb> irradiance(order.size());
+    std::vector<double> deviation(order.size());
+    lights_.irradiance(receivers, irradiance, deviation);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      VertexLight& light = state_.light[first + order[i]];
+      light.direct = irradiance[i];
+      light.direct_deviation = deviation[i];
+    }
     for (std::size_t v = first; v < n; ++v) sum_up(VertexId(v));
   }
 
@@ -211,6 +233,31 @@ class Gathering {
     double deviation = 0;
   };
 
+  /// The surface over the middles of `chosen` edges, and E_d there.
+  void light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
+                     std::span<Middle> middles) {
+    parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Edge& edge = edges[chosen[i]];
+        middles[chosen[i]].point = middle_of_edge(mesh_, rays_, edge.a, edge.b);
+      }
+    });
+    std::vector<Receiver> receivers;
+    std::vector<std::uint32_t> of;
+    for (std::uint32_t i : chosen) {
+      if (!middles[i].point) continue;
+      receivers.push_back({middles[i].point->position, middles[i].point->normal});
+      of.push_back(i);
+    }
+    std::vector<Rgb> irradiance(of.size());
+    std::vector<double> deviation(of.size());
+    lights_.irradiance(receivers, irradiance, deviation);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      middles[of[i]].direct = irradiance[i];
+      middles[of[i]].deviation = deviation[i];
+    }
+  }
+
   /// The surface over the middles of edges, and E_d there.
   std::vector<Middle> middles_of(std::span<const Edge> edges) {
     std::vector<Middle> middles(edges.size());
@@ -219,24 +266,10 @@ class Gathering {
       places.push_back((mesh_.vertex(e.a).position + mesh_.vertex(e.b).position) / 2);
     }
     const std::vector<std::uint32_t> order = z_order(places);
-    for_pieces(edges.size(), [&](std::size_t begin, std::size_t end) {
-      std::vector<Receiver> receivers;
-      std::vector<std::uint32_t> of;
-      for (std::size_t i = begin; i < end; ++i) {
-        Middle& middle = middles[order[i]];
-        middle.point = middle_of_edge(mesh_, rays_, edges[order[i]].a, edges[order[i]].b);
-        if (!middle.point) continue;
-        receivers.push_back({middle.point->position, middle.point->normal});
-        of.push_back(order[i]);
-      }
-      std::vector<Rgb> irradiance(of.size());
-      std::vector<double> deviation(of.size());
-      lights_.irradiance(receivers, irradiance, deviation);
-      for (std::size_t i = 0; i < of.size(); ++i) {
-        middles[of[i]].direct = irradiance[i];
-        middles[of[i]].deviation = deviation[i];
-      }
-    });
+    for (std::size_t first = 0; first < edges.size() && keep_going(); first += kChunk) {
+      light_middles(edges, std::span(order).subspan(first, std::min(kChunk, edges.size() - first)),
+                    middles);
+    }
     return middles;
   }
 
@@ -254,6 +287,7 @@ class Gathering {
   /// Splits edges until interpolation of E_d costs no more than its share.
   void refine_direct() {
     while (!stopped_) {
+      mesh_.compact();
       if (callbacks_.checkpoint) callbacks_.checkpoint(state_);
       const std::vector<Edge> edges = living_edges(mesh_);
       sample(edges);
@@ -334,6 +368,7 @@ class Gathering {
         continue;
       }
       ++state_.statistics.split;
+      split_since_.insert(edges[i].key());
       state_.light.resize(mesh_.vertices().size());
       state_.irradiance.resize(mesh_.vertices().size());
       VertexLight& light = state_.light[*v];
@@ -351,7 +386,8 @@ class Gathering {
     light.indirect = (a.indirect + b.indirect) / 2;
     light.indirect_deviation = (a.indirect_deviation + b.indirect_deviation) / 2;
     light.escaped = (a.escaped + b.escaped) / 2;
-    light.bend = (a.bend + b.bend) / 2 + kUsualBend * difference(light.parents[0], light.parents[1]);
+    light.closeness = (a.closeness + b.closeness) / 2;
+    light.bend = (a.bend + b.bend) / 2 + usual_bend(light.parents[0], light.parents[1]);
   }
 
   /// How far apart E_i of two vertices is, what chance adds left out.
@@ -359,6 +395,17 @@ class Gathering {
     const VertexLight &a = state_.light[v], &b = state_.light[w];
     const double noise = square(a.indirect_deviation) + square(b.indirect_deviation);
     return std::sqrt(std::max(0.0, square(luminance(a.indirect - b.indirect)) - noise));
+  }
+
+  /// How far E_i in the middle between two vertices is off their mean, as a rule: a part of their
+  /// difference, or, where things stand close to them, the square of distances' ratio: the radius
+  /// of irradiance caching (Ward, Rubinstein and Clear 1988) is the harmonic mean distance.
+  double usual_bend(VertexId v, VertexId w) const {
+    const VertexLight &a = state_.light[v], &b = state_.light[w];
+    const double ratio = distance(mesh_.vertex(v).position, mesh_.vertex(w).position) *
+                         (a.closeness + b.closeness) / 4;
+    const double mean = luminance(a.indirect + b.indirect) / 2;
+    return std::max(kUsualBend * difference(v, w), kUsualCurve * mean * std::min(1.0, ratio * ratio));
   }
 
   // Indirect light ----------------------------------------------------------------------------
@@ -374,7 +421,7 @@ class Gathering {
   /// New links for the vertices that gather, grid² rays each, over the mesh as it is now.
   void gather_all(int grid) {
     state_.grid = grid;
-    hemisphere_.emplace(rays_, mesh_, lights_.separate());
+    look_up_anew();
     std::vector<VertexId> gatherers;
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       const bool in_cover = state_.light[v].parents[0] == state_.light[v].parents[1];
@@ -398,16 +445,30 @@ class Gathering {
       for (std::size_t i = begin; i < end; ++i) {
         const VertexId v = vertices[order[i]];
         const Vertex& vertex = mesh_.vertex(v);
-        give_links(state_.light[v], links({vertex.gather_point, vertex.normal}, v));
+        give_links(v, links({vertex.gather_point, vertex.normal}, v));
       }
     });
     state_.statistics.refinement_rays += vertices.size() * square_of(state_.grid);
   }
 
-  void give_links(VertexLight& light, std::vector<Landing> row) const {
-    light.row = std::move(row);
-    light.escaped = hemisphere_->escaped(light.row);
+  void give_links(VertexId v, std::vector<Landing> row) {
+    VertexLight& light = state_.light[v];
+    light.escaped = hemisphere_->escaped(row);
+    light.closeness = 0;
+    for (const Landing& landing : row) {
+      const double away = distance(mesh_.vertex(v).position, place_of(landing));
+      if (away > 0) light.closeness += 1 / away / static_cast<double>(row.size());
+    }
     light.bend = 0;
+    light.row = std::move(row);
+  }
+
+  /// Where a ray landed.
+  Vec3 place_of(const Landing& landing) const {
+    const auto [w1, w2] = landing.weight();
+    const auto& [a, b, c] = landing.vertices;
+    return mesh_.vertex(a).position * (1 - w1 - w2) + mesh_.vertex(b).position * w1 +
+           mesh_.vertex(c).position * w2;
   }
 
   /// E_i of a vertex with links, under the light of the moment.
@@ -492,6 +553,7 @@ class Gathering {
   /// Lets vertices gather, and splits edges, where interpolation of E_i costs too much.
   void refine_indirect() {
     const double target = square(kIndirectShare * state_.level * mean_irradiance()) * area();
+    state_.indirect_error.clear();
     for (int round = 0; round < 12 && !stopped_; ++round) {
       const std::vector<Edge> edges = living_edges(mesh_);
       std::vector<double> around(state_.light.size());  // area of the triangles at each vertex
@@ -505,7 +567,7 @@ class Gathering {
       std::vector<Edge> suspect;
       for (const Edge& e : edges) {
         if (!state_.light[e.a].gathers() || !state_.light[e.b].gathers() || state_.indirect_error.contains(e.key())) continue;
-        if (weight(e, kUsualBend * difference(e.a, e.b)) > allowed) suspect.push_back(e);
+        if (weight(e, usual_bend(e.a, e.b)) > allowed) suspect.push_back(e);
       }
       if (doubtful.empty() && (suspect.empty() || full())) break;
       trace(doubtful);
@@ -516,8 +578,44 @@ class Gathering {
       });
       for (VertexId v : doubtful) sum_up(v);
       split_suspects(suspect, allowed);
+      renew_links();
+      transfer();
     }
     state_.indirect_mean_square = indirect_mean_square();
+  }
+
+  /// Links anew the vertices of whose rays a good part landed on edges that are split since: there
+  /// the mesh knows the light better now.
+  void renew_links() {
+    constexpr double kGoodPart = 0.02;
+    if (split_since_.empty()) return;
+    const auto outdated = [&](const Landing& landing) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [a, b] = std::minmax(landing.vertices[k], landing.vertices[(k + 1) % 3]);
+        if (split_since_.contains(Edge{a, b}.key())) return true;
+      }
+      return false;
+    };
+    std::vector<char> renew(state_.light.size());
+    parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const std::vector<Landing>& row = state_.light[v].row;
+        const auto count = std::count_if(row.begin(), row.end(), outdated);
+        renew[v] = static_cast<double>(count) > kGoodPart * static_cast<double>(row.size());
+      }
+    });
+    std::vector<VertexId> vertices;
+    for (VertexId v = 0; v < renew.size(); ++v) {
+      if (renew[v]) vertices.push_back(v);
+    }
+    look_up_anew();
+    trace(vertices);
+  }
+
+  /// Landings from here on are looked up in the mesh as it is now.
+  void look_up_anew() {
+    hemisphere_.emplace(rays_, mesh_, lights_.separate());
+    split_since_.clear();
   }
 
   void split_suspects(std::span<const Edge> suspect, double allowed) {
@@ -547,7 +645,7 @@ class Gathering {
       split({&edge, 1}, {&middles[i], 1});
       if (mesh_.vertices().size() == v) continue;
       VertexLight& light = state_.light[v];
-      give_links(light, std::move(rows[i]));
+      give_links(static_cast<VertexId>(v), std::move(rows[i]));
       light.indirect = gathered.irradiance;
       light.indirect_deviation = gathered.error;
       sum_up(static_cast<VertexId>(v));
@@ -559,7 +657,7 @@ class Gathering {
     double sum = 0;
     for (const Edge& e : living_edges(mesh_)) {
       const auto known = state_.indirect_error.find(e.key());
-      const double bend = known != state_.indirect_error.end() ? known->second : kUsualBend * difference(e.a, e.b);
+      const double bend = known != state_.indirect_error.end() ? known->second : usual_bend(e.a, e.b);
       sum += weight(e, bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2);
     }
     return sum / area();
@@ -634,6 +732,7 @@ class Gathering {
   const Stopwatch stopwatch_;
   const DirectLight lights_;
   std::optional<HemisphereGather> hemisphere_;  // over the mesh as it was at the last gather_all()
+  std::unordered_set<std::uint64_t> split_since_;  // edges split since then
   bool stopped_ = false;
 };
 

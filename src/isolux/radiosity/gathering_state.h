@@ -20,6 +20,7 @@ struct VertexLight {
   double direct_deviation = 0, indirect_deviation = 0;        // σ of their luminance, lx
   double bend = 0;                    // what interpolating E_i may have cost, lx
   double escaped = 0;                 // part of the hemisphere in which no surface is seen
+  double closeness = 0;               // mean of 1 / distance of what is seen, 1/m
   std::array<VertexId, 2> parents{};  // the ends of the edge that it was born on
   std::vector<Landing> row;           // where it gathers; empty: E_i is the mean of the parents'
 
@@ -28,6 +29,8 @@ struct VertexLight {
 
 /// What gathering knows between two of its rounds: enough to go on from there.
 struct GatheringState {
+  explicit GatheringState(Triangulation triangulation) : mesh(std::move(triangulation)) {}
+
   Triangulation mesh;
   std::vector<VertexLight> light;  // by vertex
   std::vector<Rgb> irradiance;     // E by vertex, lx

@@ -1,5 +1,6 @@
 #include "isolux/radiosity/hemisphere_gather.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "isolux/core/parallel.h"
@@ -66,13 +67,15 @@ HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& m
     surfaces_.push_back({reflectance, {}});
     surfaces_.push_back({{}, emission});
   }
-  surfaces_.push_back({});
+  surfaces_.resize(surface_count(scene));
 }
 
 Landing HemisphereGather::land(const Ray& ray) const {
-  const Landing black{static_cast<std::uint32_t>(surfaces_.size() - 1), {}, {}};
+  const Landing outside{static_cast<std::uint32_t>(surfaces_.size() - 1), {}, {}};
+  const Landing black{outside.surface - 1, {}, {}};
   const std::optional<SurfaceHit> hit = rays_.nearest(ray);
-  if (!hit || dot(hit->normal, ray.direction) >= 0) return black;
+  if (!hit) return outside;
+  if (dot(hit->normal, ray.direction) >= 0) return black;
   const std::uint32_t surface = 3 * hit->surface.object;
   const std::optional<MeshPlace> place = lookup_.place(hit->point, hit->normal);
   if (!place) return hit->back ? black : Landing{surface + 2, {}, {}};
@@ -126,6 +129,13 @@ Rgb HemisphereGather::radiosity(const Landing& landing, std::span<const Rgb> irr
   const auto& [a, b, c] = landing.vertices;
   const Rgb received = irradiance[a] * (1 - w1 - w2) + irradiance[b] * w1 + irradiance[c] * w2;
   return surface.emission + surface.reflectance * received;
+}
+
+double HemisphereGather::escaped(std::span<const Landing> row) const {
+  const auto out = std::count_if(row.begin(), row.end(), [&](const Landing& landing) {
+    return landing.surface == surfaces_.size() - 1;
+  });
+  return static_cast<double>(out) / static_cast<double>(row.size());
 }
 
 Rgb HemisphereGather::gather(std::span<const Landing> row, std::span<const Rgb> irradiance) const {

@@ -13,12 +13,15 @@ namespace isolux {
 /// Where a ray over a hemisphere lands: a place in the mesh, and whose surface it is. 20 bytes.
 struct Landing {
   /// Which entry of the surfaces' table: 3 × object, + 1 on its back, which does not emit, + 2
-  /// where it only emits, the mesh having no vertex there; the last entry is what is black, because
-  /// nothing is there or it faces away.
+  /// where it only emits, the mesh having no vertex there; then an entry for what is black, because
+  /// it faces away, and last one for the outside, where nothing is.
   std::uint32_t surface = 0;
   std::array<VertexId, 3> vertices{};
   /// Of the second and third vertex, in units of 1 / 65535; the first has the rest.
   std::array<std::uint16_t, 2> weights{};
+
+  /// Of the second and third vertex.
+  std::array<double, 2> weight() const { return {weights[0] / 65535.0, weights[1] / 65535.0}; }
 };
 static_assert(sizeof(Landing) == 20);
 
@@ -54,6 +57,12 @@ class HemisphereGather {
   std::vector<Landing> trace(std::span<const Receiver> receivers,
                              std::span<const std::uint32_t> ids, int grid,
                              std::uint64_t seed) const;
+
+  /// The part of the row's rays that leave the scene.
+  double escaped(std::span<const Landing> row) const;
+
+  /// Landing::surface is less than this.
+  static std::size_t surface_count(const Scene& scene) { return 3 * scene.objects.size() + 2; }
 
   /// The irradiance that the row's surfaces give with `irradiance` (lx) at the mesh's vertices.
   Rgb gather(std::span<const Landing> row, std::span<const Rgb> irradiance) const;

@@ -213,7 +213,7 @@ Solved solve_by_gathering(const Scene& scene, const Options& options,
   check_options(options);
   check_place(scene.bounds());
   const RayCaster rays(scene);
-  if (!from) from.emplace(GatheringState{Triangulation(gathering_rules(scene), scene.bounds())});
+  if (!from) from.emplace(Triangulation(gathering_rules(scene), scene.bounds()));
   gather_radiosity(*from, rays, options, callbacks);
   return {std::move(from->mesh), from->statistics};
 }

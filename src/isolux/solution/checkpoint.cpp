@@ -46,7 +46,7 @@ struct PackedTriangle {
 
 struct PackedLight {
   Rgb direct, indirect;
-  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0;
+  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0, closeness = 0;
   std::array<VertexId, 2> parents{};
   std::uint64_t landings = 0;
 };
@@ -164,7 +164,7 @@ json state_to_json(const GatheringState& state) {
   std::vector<Landing> landings;
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.bend,
-                      l.escaped, l.parents, l.row.size()});
+                      l.escaped, l.closeness, l.parents, l.row.size()});
     landings.insert(landings.end(), l.row.begin(), l.row.end());
   }
   put(object, "light", lights);
@@ -186,7 +186,7 @@ std::unordered_map<std::uint64_t, float> get_errors(const json& object, const ch
 }
 
 GatheringState state_from_json(const json& object, Triangulation mesh, std::size_t surface_count) {
-  GatheringState state{std::move(mesh)};
+  GatheringState state(std::move(mesh));
   const std::size_t vertex_count = state.mesh.vertices().size();
   const auto landings = get<Landing>(object, "landings");
   for (const Landing& landing : landings) {
@@ -198,7 +198,7 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
     if (std::max(p.parents[0], p.parents[1]) >= vertex_count) damaged("light");
     state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.bend,
-                           p.escaped, p.parents, take(landings, next, p.landings, "landings")});
+                           p.escaped, p.closeness, p.parents, take(landings, next, p.landings, "landings")});
   }
   state.irradiance = get<Rgb>(object, "irradiance");
   if (state.light.size() != vertex_count) damaged("light");
