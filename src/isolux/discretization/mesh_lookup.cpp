@@ -217,15 +217,22 @@ class MeshLookup::Impl {
     return 3 * rise + 0.01 * longest;
   }
 
-  /// All places from which the triangle may be found, seen from the middle of the mesh.
+  /// All places from which the triangle may be found, seen from the middle of the mesh: the
+  /// triangle scaled about its own middle so that weights go down to −kOutside, and its reach.
   Bounds box(TriangleId id) const {
+    const Triangle& triangle = mesh_.triangle(id);
+    Vec3 center;
+    for (const VertexId v : triangle.vertices) center += mesh_.vertex(v).position / 3;
     Bounds bounds;
-    for (const VertexId v : mesh_.triangle(id).vertices) {
-      bounds.include(mesh_.vertex(v).position - middle_);
+    for (const VertexId v : triangle.vertices) {
+      const Vec3 arm = mesh_.vertex(v).position - center;
+      bounds.include(center + arm * (1 + 3.01 * kOutside) - middle_);
     }
-    const double room = reach_of(id) + kOutside * bounds.diagonal();
-    bounds.lower -= Vec3{room, room, room};
-    bounds.upper += Vec3{room, room, room};
+    const double reach = 1.01 * reach_of(id);
+    const Vec3& n = triangle.normal;
+    const Vec3 room = Vec3{std::abs(n.x), std::abs(n.y), std::abs(n.z)} * reach;
+    bounds.lower -= room;
+    bounds.upper += room;
     return bounds;
   }
 
@@ -273,7 +280,7 @@ class MeshLookup::Impl {
       listed_.push_back(entries[i].second);
       voxels += i == 0 || entries[i].first != entries[i - 1].first;
     }
-    table_.assign(std::bit_ceil(2 * voxels + 2), {});
+    table_.assign(std::bit_ceil(voxels + voxels / 4 + 2), {});
     for (std::size_t i = 0; i < entries.size();) {
       std::size_t end = i;
       while (end < entries.size() && entries[end].first == entries[i].first) ++end;
