@@ -75,12 +75,12 @@ TEST(HemisphereGather, InterreflectionInACubeWithALampInItsMiddle) {
   for (const double rho : {0.2, 0.5, 0.8}) {
     const Scene scene = box_room(4, rho, 0);
     const RayCaster rays(scene);
-    const Triangulation mesh = box_room_mesh({4, 4, 4}, 24, gray(rho));
+    const Triangulation mesh = box_room_mesh({4, 4, 4}, 48, gray(rho));
     const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>{0});
     const std::vector<Receiver> receivers = receivers_of(mesh);
     std::vector<Rgb> direct;
     for (const Receiver& r : receivers) direct.push_back(direct_at(r));
-    const auto rows = gather.trace(receivers, first_ids(receivers.size()), 16, 1);
+    const auto rows = gather.trace(receivers, first_ids(receivers.size()), 8, 1);
     const std::vector<Rgb> irradiance = settle(gather, rows, direct);
 
     const auto& expected = json.at("expected").at("values").at(fmt::format("R1cube_rho{}", rho));

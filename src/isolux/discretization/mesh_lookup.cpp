@@ -2,38 +2,44 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace isolux {
 namespace {
 
 // How far outside its sides a triangle still counts, in parts of its height: over a convex edge of
 // the mesh the feet of two neighbours' perpendiculars leave a narrow wedge open.
-constexpr double kOutside = 0.05;
+constexpr float kOutside = 0.05f;
 // What the whole reach of a triangle counts in the same measure, and what is so near that no other
 // triangle need be looked at.
-constexpr double kHeight = 0.1 * kOutside;
-constexpr double kSure = 0.1 * kHeight;
+constexpr float kHeight = 0.1f * kOutside;
+constexpr float kSure = 0.1f * kHeight;
 // The cosine of the largest angle between a triangle and the surface that it stands for.
-constexpr double kFacing = 0.5;
+constexpr float kFacing = 0.5f;
 
-/// What a query needs of a triangle, in one line of the cache: with d = p − corner, the weights of
-/// the second and third vertex are along[0]·d and along[1]·d, and the height over it is normal·d.
-/// `reach` is how far the surface may stand off it, m.
-struct alignas(64) Facet {
-  Vec3 corner;
-  std::array<std::array<float, 3>, 2> along;
-  std::array<float, 3> normal;
-  float reach;
+/// In single precision, which is enough for a place in a triangle: coordinates count from the
+/// middle of the mesh.
+struct Vec3f {
+  float x, y, z;
 };
-static_assert(sizeof(Facet) == 64);
 
-std::array<float, 3> narrow(const Vec3& v) {
+Vec3f narrow(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
+Vec3f operator-(const Vec3f& a, const Vec3f& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-double dot(const std::array<float, 3>& a, const Vec3& b) {
-  return double(a[0]) * b.x + double(a[1]) * b.y + double(a[2]) * b.z;
-}
+/// All of a triangle, in one line of the cache: with d = p − corner, the weights of the second and
+/// third vertex are along[0]·d and along[1]·d, and the height over it is normal·d. `reach` is how
+/// far the surface may stand off it, m.
+struct alignas(64) Facet {
+  Vec3f corner;
+  std::array<Vec3f, 2> along;
+  Vec3f normal;
+  float reach;
+  std::array<VertexId, 3> vertices;
+};
+static_assert(sizeof(Facet) == 64);
 
 /// A voxel of one of the grids, packed: 20 bits for each coordinate, which wrap around (far voxels
 /// then share a list, which costs time only), and the grid's number.
@@ -56,42 +62,40 @@ std::size_t hash(VoxelKey key) {
 class MeshLookup::Impl {
  public:
   explicit Impl(const Triangulation& mesh) : mesh_(mesh), near_(Vec3{}, mesh.rules().max_edge) {
-    collect();
-    choose_grids();
-    fill_voxels();
+    collect_vertices();
+    collect_triangles();
   }
 
   std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const {
+    const Vec3 from_middle = point - middle_;
+    const Vec3f p = narrow(from_middle), n = narrow(normal);
     const Facet* best = nullptr;
-    std::array<double, 3> weights{};
-    double best_score = kOutside;
+    std::array<float, 3> weights{};
+    float best_score = kOutside;
     for (int level = 0; level < levels_; ++level) {
-      const double scale = scales_[static_cast<std::size_t>(level)];
-      const auto list = find(
-          voxel_key(level, cell(point.x * scale), cell(point.y * scale), cell(point.z * scale)));
-      for (const std::uint32_t index : list) {
+      for (const std::uint32_t index : find(voxel_of(from_middle, level))) {
         const Facet& facet = facets_[index];
-        const Vec3 d = point - facet.corner;
-        const double w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
-        const double outside = std::max({-w1, -w2, w1 + w2 - 1});
-        if (outside > kOutside || dot(facet.normal, normal) < kFacing) continue;
-        const double height = std::abs(dot(facet.normal, d));
+        const Vec3f d = p - facet.corner;
+        const float w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
+        const float outside = std::max({-w1, -w2, w1 + w2 - 1});
+        if (outside > kOutside || dot(facet.normal, n) < kFacing) continue;
+        const float height = std::abs(dot(facet.normal, d));
         if (height > facet.reach) continue;
         // The nearest sheet; in it the triangle whose sides are kept best.
-        const double score = std::max(outside, 0.0) + height / facet.reach * kHeight;
+        const float score = std::max(outside, 0.0f) + height / facet.reach * kHeight;
         if (best && score >= best_score) continue;
         best = &facet;
         best_score = score;
         weights = {1 - w1 - w2, w1, w2};
-        if (outside <= 0 && score < kSure) return place_in(best, weights);
+        if (outside <= 0 && score < kSure) return place_in(facet, weights);
       }
     }
     if (!best) return std::nullopt;
-    return place_in(best, weights);
+    return place_in(*best, weights);
   }
 
   std::optional<MeshPlace> nearest_vertices(const Vec3& point, const Vec3& normal) const {
-    for (const double facing : {kFacing, 1e-6}) {
+    for (const double facing : {double(kFacing), 1e-6}) {
       // Every vertex within the radius is looked at; a wider search can only add farther ones.
       double radius = mesh_.rules().max_edge;
       for (; radius < 8 * extent_ + 8 * mesh_.rules().max_edge; radius *= 2) {
@@ -103,17 +107,25 @@ class MeshLookup::Impl {
   }
 
  private:
-  MeshPlace place_in(const Facet* facet, std::array<double, 3> weights) const {
+  static MeshPlace place_in(const Facet& facet, const std::array<float, 3>& weights) {
+    MeshPlace place{facet.vertices, {}};
     double sum = 0;
-    for (double& w : weights) sum += w = std::max(w, 0.0);
-    for (double& w : weights) w /= sum;
-    return {corners_[static_cast<std::size_t>(facet - facets_.data())], weights};
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += place.weights[k] = std::max(static_cast<double>(weights[k]), 0.0);
+    }
+    for (double& w : place.weights) w /= sum;
+    return place;
   }
 
   /// The voxel of a coordinate counted in voxels: monotonic, and where it matters (within half a
-  /// million voxels of the origin) that of the next lower whole number.
+  /// million voxels of the middle) that of the next lower whole number.
   static std::int64_t cell(double coordinate) {
     return static_cast<std::int64_t>(coordinate + 0x1p19);
+  }
+  VoxelKey voxel_of(const Vec3& from_middle, int level) const {
+    const double scale = scales_[static_cast<std::size_t>(level)];
+    return voxel_key(level, cell(from_middle.x * scale), cell(from_middle.y * scale),
+                     cell(from_middle.z * scale));
   }
 
   std::optional<MeshPlace> nearest_vertices(const Vec3& point, const Vec3& normal, double facing,
@@ -142,24 +154,8 @@ class MeshLookup::Impl {
     return place;
   }
 
-  /// The living triangles and their vertices.
-  void collect() {
-    for (TriangleId id = 0; id < mesh_.triangles().size(); ++id) {
-      const Triangle& triangle = mesh_.triangle(id);
-      if (!triangle.alive) continue;
-      const Vertex& a = mesh_.vertex(triangle.vertices[0]);
-      const Vertex& b = mesh_.vertex(triangle.vertices[1]);
-      const Vertex& c = mesh_.vertex(triangle.vertices[2]);
-      const Vec3 ab = b.position - a.position, ac = c.position - a.position;
-      const Vec3 n = cross(ab, ac);
-      const double squared = length_squared(n);
-      if (!(squared > 0)) continue;
-      facets_.push_back({a.position,
-                         {narrow(cross(ac, n) / squared), narrow(cross(n, ab) / squared)},
-                         narrow(triangle.normal),
-                         static_cast<float>(reach_of({&a, &b, &c}))});
-      corners_.push_back(triangle.vertices);
-    }
+  /// The vertices of living triangles, and the middle of the mesh.
+  void collect_vertices() {
     Bounds bounds;
     for (VertexId v = 0; v < mesh_.vertices().size(); ++v) {
       const Vertex& vertex = mesh_.vertex(v);
@@ -167,15 +163,53 @@ class MeshLookup::Impl {
       near_.insert(v, vertex.position);
       bounds.include(vertex.position);
     }
+    if (bounds.empty()) return;
     extent_ = bounds.diagonal();
+    middle_ = bounds.center();
+  }
+
+  /// The living triangles, those of one voxel one after the other.
+  void collect_triangles() {
+    std::vector<TriangleId> living;
+    for (TriangleId id = 0; id < mesh_.triangles().size(); ++id) {
+      if (mesh_.triangle(id).alive && mesh_.triangle(id).area > 0) living.push_back(id);
+    }
+    const std::vector<int> levels = choose_grids(living);
+    std::vector<std::tuple<VoxelKey, TriangleId, int>> order;
+    for (std::size_t i = 0; i < living.size(); ++i) {
+      order.emplace_back(voxel_of(box(living[i]).center(), levels[i]), living[i], levels[i]);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::pair<VoxelKey, std::uint32_t>> entries;
+    for (const auto& [key, id, level] : order) {
+      list(box(id), level, static_cast<std::uint32_t>(facets_.size()), entries);
+      facets_.push_back(facet_of(id));
+    }
+    fill_table(entries);
+  }
+
+  Facet facet_of(TriangleId id) const {
+    const Triangle& triangle = mesh_.triangle(id);
+    const Vec3 a = mesh_.vertex(triangle.vertices[0]).position;
+    const Vec3 ab = mesh_.vertex(triangle.vertices[1]).position - a;
+    const Vec3 ac = mesh_.vertex(triangle.vertices[2]).position - a;
+    const Vec3 n = cross(ab, ac);
+    const double squared = length_squared(n);
+    return {narrow(a - middle_),
+            {narrow(cross(ac, n) / squared), narrow(cross(n, ab) / squared)},
+            narrow(triangle.normal),
+            static_cast<float>(reach_of(id)),
+            triangle.vertices};
   }
 
   /// How far the true surface may stand off a triangle: thrice the rise of a circular arc over any
   /// side, and a little where it is flat.
-  static double reach_of(const std::array<const Vertex*, 3>& corners) {
+  double reach_of(TriangleId id) const {
+    const auto& corners = mesh_.triangle(id).vertices;
     double rise = 0, longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vertex &p = *corners[k], &q = *corners[(k + 1) % 3];
+      const Vertex& p = mesh_.vertex(corners[k]);
+      const Vertex& q = mesh_.vertex(corners[(k + 1) % 3]);
       const Vec3 side = q.position - p.position;
       rise = std::max(rise, std::abs(dot(q.normal - p.normal, side)) / 8);
       longest = std::max(longest, length(side));
@@ -183,62 +217,70 @@ class MeshLookup::Impl {
     return 3 * rise + 0.01 * longest;
   }
 
-  Bounds box(std::size_t facet) const {
+  /// All places from which the triangle may be found, seen from the middle of the mesh: the
+  /// triangle scaled about its own middle so that weights go down to −kOutside, and its reach.
+  Bounds box(TriangleId id) const {
+    const Triangle& triangle = mesh_.triangle(id);
+    Vec3 center;
+    for (const VertexId v : triangle.vertices) center += mesh_.vertex(v).position / 3;
     Bounds bounds;
-    for (const VertexId v : corners_[facet]) bounds.include(mesh_.vertex(v).position);
-    const double room = facets_[facet].reach + kOutside * bounds.diagonal();
-    bounds.lower -= Vec3{room, room, room};
-    bounds.upper += Vec3{room, room, room};
+    for (const VertexId v : triangle.vertices) {
+      const Vec3 arm = mesh_.vertex(v).position - center;
+      bounds.include(center + arm * (1 + 3.01 * kOutside) - middle_);
+    }
+    const double reach = 1.01 * reach_of(id);
+    const Vec3& n = triangle.normal;
+    const Vec3 room = Vec3{std::abs(n.x), std::abs(n.y), std::abs(n.z)} * reach;
+    bounds.lower -= room;
+    bounds.upper += room;
     return bounds;
   }
 
-  /// Triangles go by the power of two of their size; voxels are a quarter to half as large
-  /// as they. At most kMostLevels grids: the finest takes all that is smaller.
-  void choose_grids() {
+  /// The grid of each triangle, by the power of two of its size; voxels are a quarter to half as
+  /// large as the triangles. At most kMostLevels grids: the finest takes all that is smaller.
+  std::vector<int> choose_grids(std::span<const TriangleId> triangles) {
     constexpr int kMostLevels = 12;
     std::vector<int> exponents;
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-      exponents.push_back(std::ilogb(box(i).diagonal()));
-    }
-    level_of_.assign(facets_.size(), 0);
-    if (exponents.empty()) return;
+    for (const TriangleId id : triangles) exponents.push_back(std::ilogb(box(id).diagonal()));
+    if (exponents.empty()) return {};
     const int largest = *std::max_element(exponents.begin(), exponents.end());
-    std::array<bool, kMostLevels> used{};
-    const auto below_largest = [&](int e) { return std::min(largest - e, kMostLevels - 1); };
-    for (const int e : exponents) used[static_cast<std::size_t>(below_largest(e))] = true;
-    std::array<int, kMostLevels> number{};
+    std::array<int, kMostLevels> number;
+    number.fill(-1);
+    for (int& e : exponents) {
+      e = std::min(largest - e, kMostLevels - 1);
+      number[static_cast<std::size_t>(e)] = 0;
+    }
     for (int k = 0; k < kMostLevels; ++k) {
-      if (!used[static_cast<std::size_t>(k)]) continue;
-      number[static_cast<std::size_t>(k)] = levels_++;
+      int& grid = number[static_cast<std::size_t>(k)];
+      if (grid < 0) continue;
+      grid = levels_++;
       scales_.push_back(1 / std::ldexp(0.5, largest - k));
     }
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-      level_of_[i] =
-          static_cast<std::uint8_t>(number[static_cast<std::size_t>(below_largest(exponents[i]))]);
-    }
+    for (int& e : exponents) e = number[static_cast<std::size_t>(e)];
+    return exponents;
   }
 
-  void fill_voxels() {
-    std::vector<std::pair<VoxelKey, std::uint32_t>> entries;
-    for (std::uint32_t i = 0; i < facets_.size(); ++i) {
-      const Bounds b = box(i);
-      const double scale = scales_[level_of_[i]];
-      for (auto z = cell(b.lower.z * scale); z <= cell(b.upper.z * scale); ++z) {
-        for (auto y = cell(b.lower.y * scale); y <= cell(b.upper.y * scale); ++y) {
-          for (auto x = cell(b.lower.x * scale); x <= cell(b.upper.x * scale); ++x) {
-            entries.emplace_back(voxel_key(level_of_[i], x, y, z), i);
-          }
+  /// Lists the facet in all voxels that the box touches.
+  void list(const Bounds& box, int level, std::uint32_t facet,
+            std::vector<std::pair<VoxelKey, std::uint32_t>>& entries) const {
+    const double scale = scales_[static_cast<std::size_t>(level)];
+    for (auto z = cell(box.lower.z * scale); z <= cell(box.upper.z * scale); ++z) {
+      for (auto y = cell(box.lower.y * scale); y <= cell(box.upper.y * scale); ++y) {
+        for (auto x = cell(box.lower.x * scale); x <= cell(box.upper.x * scale); ++x) {
+          entries.emplace_back(voxel_key(level, x, y, z), facet);
         }
       }
     }
-    std::sort(entries.begin(), entries.end());
-    for (const auto& [key, facet] : entries) listed_.push_back(facet);
+  }
 
+  void fill_table(std::vector<std::pair<VoxelKey, std::uint32_t>>& entries) {
+    std::sort(entries.begin(), entries.end());
     std::size_t voxels = 0;
     for (std::size_t i = 0; i < entries.size(); ++i) {
+      listed_.push_back(entries[i].second);
       voxels += i == 0 || entries[i].first != entries[i - 1].first;
     }
-    table_.assign(std::bit_ceil(2 * voxels + 2), {});
+    table_.assign(std::bit_ceil(voxels + voxels / 4 + 2), {});
     for (std::size_t i = 0; i < entries.size();) {
       std::size_t end = i;
       while (end < entries.size() && entries[end].first == entries[i].first) ++end;
@@ -269,12 +311,11 @@ class MeshLookup::Impl {
   const Triangulation& mesh_;
   VertexGrid near_;             // the vertices of living triangles
   double extent_ = 0;           // of the mesh, m
+  Vec3 middle_;                 // of the mesh
   int levels_ = 0;              // grids
   std::vector<double> scales_;  // by grid: voxels per m
   std::vector<Facet> facets_;
-  std::vector<std::array<VertexId, 3>> corners_;  // of the facets
-  std::vector<std::uint8_t> level_of_;            // the facets' grids
-  std::vector<std::uint32_t> listed_;             // facets, voxel by voxel
+  std::vector<std::uint32_t> listed_;  // facets, voxel by voxel
   std::vector<Voxel> table_;
 };
 
