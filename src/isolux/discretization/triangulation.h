@@ -114,6 +114,31 @@ class Triangulation {
   /// possible edges. A dead triangle, or a light's, is left as it is. Everything stays valid.
   void remove(TriangleId triangle);
 
+  /// Puts `point`, a surface point over the middle of edge ab, into that edge: the one or two
+  /// triangles at it become two or four, which inherit emission and what was shot; then flips edges
+  /// around it until they are Delaunay. The edge ab is gone. Returns the new vertex, its light
+  /// being zero; nothing, and no change, where ab has no triangle or a light's (`on_light`), or a
+  /// child would stand against rule 1, rule 4, or steeper than α_n off a corner's normal. Ids and
+  /// references as extend(). Cost: constant.
+  std::optional<VertexId> split_edge(VertexId a, VertexId b, const SurfacePoint& point);
+
+  /// Turns the edge ab between two triangles into the other diagonal of their quadrilateral, where
+  /// that is Delaunay (the angles opposite ab sum to more than π) and the two new triangles obey the
+  /// rules as in split_edge(); the unshot power stays what it was in sum. Returns whether it did;
+  /// the two triangles die then, and edge ab is gone.
+  bool flip(VertexId a, VertexId b);
+
+  /// Flips until no edge of `edges`, or edge that a flip touched, asks for it. Cost: linear as a
+  /// rule; at most 16 flips for each of the edges.
+  void make_delaunay(std::vector<std::pair<VertexId, VertexId>> edges);
+
+  /// Whether three vertices, in this order, may be a triangle by rules 1 and 4, its own normal no
+  /// more than α_n off those of its corners.
+  bool may_be_triangle(VertexId a, VertexId b, VertexId c) const;
+
+  /// The living triangle wound from a to b, if there is one.
+  std::optional<TriangleId> triangle_at(VertexId a, VertexId b) const;
+
   /// The vertices that extend() would connect `point` to, nearest first, without changing
   /// anything.
   std::vector<VertexId> connectable(const SurfacePoint& point) const;
@@ -153,6 +178,7 @@ class Triangulation {
   VertexId add_vertex(const SurfacePoint& point);
   void add_edge(VertexId a, VertexId b);
   TriangleId add_triangle(VertexId a, VertexId b, VertexId c);
+  void remove_edge(VertexId a, VertexId b);
   bool faces_outward(VertexId a, VertexId b, VertexId c) const;
   bool closes_triangle(VertexId v, VertexId a, VertexId b, std::span<const VertexId> near,
                        const PlaneFrame& plane) const;

@@ -21,6 +21,10 @@ void VertexGrid::insert(std::uint32_t id, const Vec3& position) {
   voxels_[cell_of(position)].push_back(id);
 }
 
+void VertexGrid::erase(std::uint32_t id, const Vec3& position) {
+  std::erase(voxels_[cell_of(position)], id);
+}
+
 void VertexGrid::query(const Vec3& center, double radius, std::vector<std::uint32_t>& ids) const {
   ids.clear();
   const Vec3 reach{radius, radius, radius};

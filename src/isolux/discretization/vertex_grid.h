@@ -16,6 +16,9 @@ class VertexGrid {
 
   void insert(std::uint32_t id, const Vec3& position);
 
+  /// Takes an id out that was inserted at this position.
+  void erase(std::uint32_t id, const Vec3& position);
+
   /// Every id in the voxels that the cube of half-side `radius` around `center` touches: a
   /// superset of those within `radius`, in no particular but a reproducible order; into `ids`
   /// (cleared first).

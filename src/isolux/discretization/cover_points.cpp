@@ -1,0 +1,189 @@
+#include "isolux/discretization/cover_points.h"
+
+#include <numbers>
+
+namespace isolux {
+namespace {
+
+constexpr double kTau = 2 * std::numbers::pi;
+// Neighbours are this part of the radius of curvature times α_n apart, so that Delaunay edges, which
+// are up to 1.7 times as long, keep within α_n.
+constexpr double kTurnPerSize = 0.55;
+// Size in a strip, in widths of it; not less than this part of the spacing.
+constexpr double kStripWidths = 2;
+constexpr double kLeastStrip = 1.0 / 32;
+// Sizes grow by this much a metre.
+constexpr double kGrading = 0.5;
+// The least distance of two points, and of a point from a crease, in sizes.
+constexpr double kApart = 0.85;
+constexpr double kFromCrease = 0.5;
+// Points on a crease are this many sizes inside it.
+constexpr double kInset = 1e-3;
+// A crease turns by at most this from point to point, rad.
+constexpr double kCreaseTurn = 0.2;
+constexpr int kDirections = 8;
+
+Vec3 tangential(const Vec3& d, const Vec3& normal) {
+  return normalized(d - normal * dot(d, normal));
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+}  // namespace
+
+CoverPoints::CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed)
+    : walk_(walk), spacing_(spacing), random_(seed), grid_(walk.rays().scene().bounds().lower) {}
+
+double CoverPoints::fineness(double size) const {
+  return std::max(1e-5 * size, 0.5 * walk_.rays().epsilon());
+}
+
+CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const Vec3& first,
+                                                   double limit) const {
+  constexpr double kNear = 0.35;
+  const Vec3 second = cross(point.normal, first);
+  Surroundings around{limit};
+  double curvature = 0;
+  std::array<double, kDirections> ends;
+  ends.fill(std::numeric_limits<double>::infinity());
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = kTau * k / kDirections;
+    const Vec3 d = first * std::cos(angle) + second * std::sin(angle);
+    double near = 0, far = 0;
+    for (const double t : {kNear * limit, limit}) {
+      const auto found = walk_.step(point, point.position + d * t);
+      if (!found) {
+        far = t;
+        break;
+      }
+      near = t;
+      curvature = std::max(curvature, angle_between(found->normal, point.normal) / t);
+    }
+    if (far == 0) continue;
+    const Rim rim = walk_.rim(point, d, near, far, limit / 64);
+    if (rim.distance > 0) {
+      const double turn = angle_between(rim.point.normal, point.normal);
+      curvature = std::max(curvature, turn / rim.distance);
+    }
+    const Vec3 on = tangential(d, rim.point.normal);
+    if (!walk_.step(rim.point, rim.point.position + on * (limit / 16))) {
+      ends[k] = rim.distance;
+      around.creases.push_back({d, rim.distance});
+      around.to_crease = std::min(around.to_crease, rim.distance);
+    }
+  }
+  around.size = std::min(limit, kTurnPerSize * walk_.normal_tolerance() / std::max(curvature, 1e-30));
+  for (int k = 0; k < kDirections / 2; ++k) {
+    const auto least = [&](int i) {
+      return ends[i] <= ends[(i + 1) % kDirections] &&
+             ends[i] <= ends[(i + kDirections - 1) % kDirections];
+    };
+    const double width = ends[k] + ends[k + kDirections / 2];
+    if (std::isfinite(width) && least(k) && least(k + kDirections / 2)) {
+      around.size = std::min(around.size,
+                             std::max(kStripWidths * width, std::min(limit, kLeastStrip * spacing_)));
+    }
+  }
+  return around;
+}
+
+double CoverPoints::graded(const ZonePoint& point, double size) const {
+  thread_local std::vector<std::uint32_t> ids;
+  grid_.query(point.position, size / kGrading, 3, ids);
+  for (const std::uint32_t id : ids) {
+    const CoverPoint& q = points_[id];
+    if (dot(q.normal, point.normal) < 0.5) continue;
+    size = std::min(size, q.size + kGrading * distance(q.position, point.position));
+  }
+  return size;
+}
+
+bool CoverPoints::crowded(const ZonePoint& point, double size) const {
+  thread_local std::vector<std::uint32_t> ids;
+  grid_.query(point.position, kApart * size, 1, ids);
+  return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
+    const CoverPoint& q = points_[id];
+    const Vec3 d = q.position - point.position;
+    const double apart = (q.on_crease() ? 0.75 : 1) * kApart * std::min(size, q.size);
+    if (length_squared(d) >= apart * apart) return false;
+    if (dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
+    // Of another sheet close by, where the height between them is not that of a curved surface.
+    const double height = std::abs(dot(d, point.normal));
+    if (height <= (length(q.normal - point.normal) + 1e-3) * length(d)) return true;
+    const auto there = walk_.over(point, q.position);
+    return there && distance(there->position, q.position) < 1e-3 * size;
+  });
+}
+
+void CoverPoints::add(const CoverPoint& point) {
+  const auto id = static_cast<std::uint32_t>(points_.size());
+  points_.push_back(point);
+  along_crease_.emplace_back();
+  grid_.insert(id, point.position, point.size);
+  front_.push({point.size, id});
+}
+
+void CoverPoints::grow_from(const ZonePoint& point) {
+  beyond_.push_back(point);
+  const Scene& scene = walk_.rays().scene();
+  for (std::size_t next = 0; next < beyond_.size(); ++next) {
+    const ZonePoint from = beyond_[next];
+    const double whole = scene.objects[from.surface.object].shape->bounds().diagonal();
+    offer(from, std::min(spacing_, 0.25 * whole));
+    while (!front_.empty()) {
+      const std::uint32_t parent = front_.top().second;
+      front_.pop();
+      spawn(parent);
+    }
+  }
+  beyond_.clear();
+}
+
+void CoverPoints::offer(const ZonePoint& point, double limit) {
+  if (crowded(point, limit)) return;
+  const Frame frame(point.normal);
+  const double angle = kTau * random_.uniform();
+  const Vec3 first = frame.u * std::cos(angle) + frame.v * std::sin(angle);
+  const Surroundings around = look_around(point, first, limit);
+  for (const Ending& ending : around.creases) {
+    if (ending.distance > 1.2 * around.size) continue;
+    crease_seeds_.push_back({point, ending.direction, ending.distance, around.size});
+  }
+  run_creases();
+  const double size = graded(point, around.size);
+  if (around.to_crease < kFromCrease * size || crowded(point, size)) return;
+  CoverPoint accepted;
+  static_cast<ZonePoint&>(accepted) = point;
+  accepted.size = size;
+  add(accepted);
+}
+
+void CoverPoints::spawn(std::uint32_t id) {
+  constexpr int kTries = 14;
+  const CoverPoint parent = points_[id];
+  const Frame frame(parent.normal);
+  const double first = kTau * random_.uniform();
+  for (int k = 0; k < kTries; ++k) {
+    const double angle = first + kTau * k / kTries;
+    const double r = parent.size * (1 + 0.3 * random_.uniform());
+    const Vec3 d = (frame.u * std::cos(angle) + frame.v * std::sin(angle)) * r;
+    if (dot(d, parent.inward) < 0) continue;
+    ZonePoint guess = parent;
+    guess.position += d;
+    if (crowded(guess, parent.size)) continue;
+    const auto child = walk_.step(parent, guess.position);
+    if (child) offer(*child, std::min(spacing_, 1.5 * parent.size));
+  }
+}
+
+void CoverPoints::run_creases() {
+  while (!crease_seeds_.empty()) {
+    const CreaseSeed seed = crease_seeds_.back();
+    crease_seeds_.pop_back();
+    trace(seed);
+  }
+}
+
+}  // namespace isolux

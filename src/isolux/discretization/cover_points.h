@@ -1,0 +1,92 @@
+#pragma once
+
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "isolux/core/random.h"
+#include "isolux/discretization/graded_grid.h"
+#include "isolux/discretization/surface_walk.h"
+
+namespace isolux {
+
+/// A point of a cover before it is a vertex.
+struct CoverPoint : ZonePoint {
+  double size = 0;  ///< the distance to its neighbours that is wanted here, m
+  Vec3 inward;      ///< unit, on creases: from the crease into the surface; else zero
+  bool on_crease() const { return length_squared(inward) > 0; }
+};
+
+/// Strews points over all surfaces that it is shown a point of: first along the creases, a hair
+/// inside, and at their corners; then between them, no two closer than about their size.
+class CoverPoints {
+ public:
+  /// `spacing`: the largest size, m.
+  CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed);
+
+  /// Covers the smooth surface around `point` with points, and those that adjoin it, as far as
+  /// they are not covered yet.
+  void grow_from(const ZonePoint& point);
+
+  std::span<const CoverPoint> points() const { return points_; }
+  const GradedGrid& grid() const { return grid_; }
+
+ private:
+  struct Ending {  // of the surface, in a direction
+    Vec3 direction;
+    double distance;  // m; a crease is there, within some 2 % of the size
+  };
+  struct Surroundings {
+    double size;
+    double to_crease = std::numeric_limits<double>::infinity();
+    std::vector<Ending> creases = {};
+  };
+  struct CreaseSeed {
+    ZonePoint from;
+    Vec3 direction;
+    double distance;
+    double size;
+  };
+  struct CreasePoint {
+    ZonePoint point;  // on the crease, or less than the walk's tolerance inside
+    Vec3 outward;     // unit, tangential, across the crease
+    double size;
+    bool corner = false;
+  };
+  Surroundings look_around(const ZonePoint& point, const Vec3& first, double limit) const;
+  bool crowded(const ZonePoint& point, double size) const;
+  double graded(const ZonePoint& point, double size) const;
+  void offer(const ZonePoint& point, double limit);
+  void spawn(std::uint32_t parent);
+  void add(const CoverPoint& point);
+  void run_creases();
+
+  void trace(const CreaseSeed& seed);
+  bool known(const SurfacePoint& point, double size) const;
+  std::optional<Vec3> outward_at(const ZonePoint& rim, const Vec3& direction, double size) const;
+  std::optional<CreasePoint> next_on_crease(const CreasePoint& from, const Vec3& along,
+                                            double step) const;
+  std::optional<CreasePoint> corner(const CreasePoint& a, const Vec3& along,
+                                    const CreasePoint& b, double step) const;
+  void follow(const CreasePoint& from, const Vec3& along, std::vector<CreasePoint>& chain,
+              bool& closed);
+  static bool met(const std::vector<CreasePoint>& chain, const CreasePoint& next, double step);
+  void even_out(std::vector<CreasePoint>& chain) const;
+  void commit(const std::vector<CreasePoint>& chain, bool closed);
+  void look_across(const CreasePoint& crease);
+  double fineness(double size) const;
+  double sized(const CreasePoint& crease, double limit) const;
+
+  const SurfaceWalk& walk_;
+  double spacing_;
+  Random random_;
+  GradedGrid grid_;
+  std::vector<CoverPoint> points_;
+  std::vector<std::vector<std::uint32_t>> along_crease_;  // neighbours on the same crease
+  using Front = std::pair<double, std::uint32_t>;
+  std::priority_queue<Front, std::vector<Front>, std::greater<>> front_;  // finest first
+  std::vector<CreaseSeed> crease_seeds_;
+  std::vector<ZonePoint> beyond_;  // points of adjoining surfaces, to be grown from
+};
+
+}  // namespace isolux

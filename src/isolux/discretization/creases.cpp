@@ -1,0 +1,347 @@
+#include "isolux/discretization/cover_points.h"
+
+namespace isolux {
+namespace {
+
+// Points on a crease are this many sizes inside it; never less than so many of the caster's
+// epsilons.
+constexpr double kInset = 1e-3;
+constexpr double kInsetEpsilons = 10;
+// A crease turns by at most this from point to point, rad; a disk then lacks 0.7 % of its area.
+constexpr double kCreaseTurn = 0.2;
+// A crease is followed at this many steps inside it.
+constexpr double kAside = 0.25;
+// Points on a crease are no closer than this part of where it was first met.
+constexpr double kLeastStep = 0.02;
+
+Vec3 tangential(const Vec3& d, const Vec3& normal) {
+  return normalized(d - normal * dot(d, normal));
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double t = std::clamp(dot(p - a, ab) / std::max(length_squared(ab), 1e-300), 0.0, 1.0);
+  return distance(p, a + ab * t);
+}
+
+/// Along the crease, to the left seen from outside the surface when looking outward.
+Vec3 left_of(const Vec3& normal, const Vec3& outward) { return cross(normal, outward); }
+
+}  // namespace
+
+/// Whether the crease is traced already where `point` lies on it.
+bool CoverPoints::known(const SurfacePoint& point, double size) const {
+  thread_local std::vector<std::uint32_t> ids;
+  grid_.query(point.position, 1.7 * size, 1.7, ids);
+  return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
+    const CoverPoint& q = points_[id];
+    if (!q.on_crease() || dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
+    const double near = 0.08 * q.size;
+    if (distance(q.position, point.position) < near) return walk_.over(q, point.position).has_value();
+    return std::any_of(along_crease_[id].begin(), along_crease_[id].end(), [&](std::uint32_t r) {
+      return distance_to_segment(point.position, q.position, points_[r].position) < near &&
+             dot(point.position - q.position, q.inward) < near && walk_.over(q, point.position);
+    });
+  });
+}
+
+/// The direction across the crease at a rim reached in `direction`, by two rims beside it.
+std::optional<Vec3> CoverPoints::outward_at(const ZonePoint& rim, const Vec3& direction,
+                                            double size) const {
+  const double aside = std::max(0.02 * size, 20 * fineness(size));
+  const Vec3 forward = tangential(direction, rim.normal), left = cross(rim.normal, forward);
+  const auto back = walk_.over(rim, rim.position - forward * aside);
+  if (!back) return std::nullopt;
+  std::array<std::optional<Vec3>, 2> beside;
+  for (int side = 0; side < 2; ++side) {
+    const auto start = walk_.step(*back, back->position + left * (side == 0 ? -aside : aside));
+    if (!start) continue;
+    const Vec3 ahead = tangential(forward, start->normal);
+    const double far = 4 * aside;
+    if (walk_.step(*start, start->position + ahead * far)) continue;
+    beside[side] = walk_.rim(*start, ahead, 0, far, fineness(size)).point.position;
+  }
+  if (!beside[0] && !beside[1]) return std::nullopt;
+  Vec3 along = beside[1].value_or(rim.position) - beside[0].value_or(rim.position);
+  if (beside[0] && beside[1] &&
+      distance_to_segment(rim.position, *beside[0], *beside[1]) > 0.1 * aside) {
+    along = *beside[1] - rim.position;  // a corner lies between: one of the two creases
+  }
+  const Vec3 outward = tangential(cross(along, rim.normal), rim.normal);
+  if (!(dot(outward, forward) > 0.05)) return std::nullopt;
+  return outward;
+}
+
+/// The size at a point of a crease, seen from a hair inside.
+double CoverPoints::sized(const CreasePoint& crease, double limit) const {
+  const auto inside =
+      walk_.over(crease.point, crease.point.position - crease.outward * (0.02 * limit));
+  if (!inside) return limit;
+  return graded(*inside, look_around(*inside, tangential(crease.outward, inside->normal), limit).size);
+}
+
+/// The point of the crease a step further on; nothing where it turns away, or something stands in
+/// the way.
+std::optional<CoverPoints::CreasePoint> CoverPoints::next_on_crease(const CreasePoint& from,
+                                                                    const Vec3& along,
+                                                                    double step) const {
+  const double aside = kAside * step;
+  const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
+  if (!inside) return std::nullopt;
+  const auto ahead = walk_.step(*inside, inside->position + tangential(along, inside->normal) * step);
+  if (!ahead) return std::nullopt;
+  const Vec3 outward = tangential(from.outward, ahead->normal);
+  if (walk_.step(*ahead, ahead->position + outward * (2.2 * aside))) return std::nullopt;
+  const Rim rim = walk_.rim(*ahead, outward, 0, 2.2 * aside, fineness(from.size));
+  return CreasePoint{rim.point, outward, from.size};
+}
+
+/// The corner where the crease of `a`, followed in `along`, meets the crease of `b`; nothing where
+/// there is none: they are parts of one round crease.
+std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a, const Vec3& along,
+                                                            const CreasePoint& b,
+                                                            double step) const {
+  const double slope = dot(along, b.outward);
+  if (std::abs(slope) < 0.05) return std::nullopt;
+  const double x = dot(b.point.position - a.point.position, b.outward) / slope;
+  if (!(x > -0.02 * step && x < 1.6 * step)) return std::nullopt;
+  const Vec3 outward = normalized(a.outward + tangential(b.outward, a.point.normal));
+  if (length_squared(outward) < 0.5) return std::nullopt;
+  const Vec3 meeting = a.point.position + along * x;
+  for (const double depth : {0.2 * step, 0.05 * step}) {
+    const auto inside = walk_.over(a.point, meeting - outward * depth);
+    if (!inside) continue;
+    const Vec3 ahead = tangential(outward, inside->normal);
+    if (walk_.step(*inside, inside->position + ahead * (2 * depth))) continue;
+    const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(a.size));
+    if (std::abs(rim.distance - depth) > 0.02 * step) continue;
+    CreasePoint found{rim.point, ahead * std::max(0.1, dot(outward, a.outward)), a.size, true};
+    return found;
+  }
+  return std::nullopt;
+}
+
+/// Whether the point lies on the chain already, its last points left out.
+bool CoverPoints::met(const std::vector<CreasePoint>& chain, const CreasePoint& next, double step) {
+  for (std::size_t i = 0; i + 3 < chain.size(); ++i) {
+    if (distance(chain[i].point.position, next.point.position) < 0.55 * step &&
+        dot(chain[i].outward, next.outward) > 0.5) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Appends to `chain` the points of the crease from `from` (left out) on, as far as a corner, a
+/// crease that is known, or round to the beginning of the chain.
+void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
+                         std::vector<CreasePoint>& chain, bool& closed) {
+  CreasePoint from = start;
+  Vec3 along = direction;
+  const double least = kLeastStep * start.size;
+  for (;;) {
+    from.size = std::max(least, sized(from, std::min(spacing_, 1.5 * from.size)));
+    const auto turned = [&](CreasePoint& next) -> double {
+      const auto outward = outward_at(next.point, next.outward, from.size);
+      if (!outward) return 10;
+      next.outward = *outward;
+      const Vec3 before = tangential(from.outward, next.point.normal);
+      return std::atan2(length(cross(before, next.outward)), dot(before, next.outward));
+    };
+    const auto along_at = [&](const CreasePoint& p) {
+      const Vec3 left = left_of(p.point.normal, p.outward);
+      return dot(left, along) > 0 ? left : -left;
+    };
+    const auto go_to_corner = [&](const CreasePoint& other, double step) {
+      const auto meeting = corner(from, along, other, step);
+      if (!meeting) return false;
+      chain.push_back(*meeting);
+      crease_seeds_.push_back({other.point, other.outward, 0, from.size});
+      return true;
+    };
+
+    double step = from.size;
+    auto next = next_on_crease(from, along, step);
+    if (!next) {
+      // As far as it goes; there, another crease should begin.
+      double near = 0, far = step;
+      std::optional<CreasePoint> last;
+      while (far - near > 2e-3 * step) {
+        const double middle = 0.5 * (near + far);
+        if (const auto found = next_on_crease(from, along, middle)) {
+          last = found, near = middle;
+        } else {
+          far = middle;
+        }
+      }
+      const double aside = kAside * std::max(near, 0.1 * step);
+      // Ahead, where something stands in the way; or back from beyond, where the crease turns away.
+      bool done = false;
+      const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
+      if (inside) {
+        const Vec3 ahead = tangential(along, inside->normal);
+        if (!walk_.step(*inside, inside->position + ahead * (1.5 * step))) {
+          const Rim rim = walk_.rim(*inside, ahead, 0, 1.5 * step, fineness(from.size));
+          const auto outward = outward_at(rim.point, ahead, from.size);
+          if (outward) done = go_to_corner({rim.point, *outward, from.size}, step);
+        }
+        if (!done) {
+          const auto past = walk_.step(*inside, inside->position + ahead * (far + 0.3 * step));
+          const auto out = past ? walk_.step(*past, past->position +
+                                                        tangential(from.outward, past->normal) *
+                                                            (2 * aside))
+                                : std::nullopt;
+          if (out) {
+            const Vec3 back = -tangential(along, out->normal);
+            if (!walk_.step(*out, out->position + back * step)) {
+              const Rim rim = walk_.rim(*out, back, 0, step, fineness(from.size));
+              const auto outward = outward_at(rim.point, back, from.size);
+              if (outward) done = go_to_corner({rim.point, *outward, from.size}, step);
+            }
+          }
+        }
+      }
+      if (!done && last && near > 0.2 * step) chain.push_back(*last);
+      return;
+    }
+    double turn = turned(*next);
+    if (turn > 1.1 * kCreaseTurn) {
+      if (turn < 9 && go_to_corner(*next, step)) return;
+      for (int halving = 0; halving < 8 && turn > 1.1 * kCreaseTurn; ++halving) {
+        step *= std::clamp(0.95 * kCreaseTurn / turn, 0.25, 0.7);
+        next = next_on_crease(from, along, step);
+        if (!next) return;
+        turn = turned(*next);
+        if (turn > 1.1 * kCreaseTurn && turn < 9 && go_to_corner(*next, step)) return;
+      }
+      if (turn > 1.1 * kCreaseTurn || step < least) return;
+      next->size = step;
+      from.size = std::min(from.size, step);
+    }
+    // Round to where the chain began?
+    if (chain.size() >= 3 &&
+        distance(next->point.position, chain.front().point.position) < 0.7 * step &&
+        dot(next->outward, chain.front().outward) > 0.5) {
+      closed = true;
+      return;
+    }
+    if (known(next->point, from.size) || met(chain, *next, step)) return;
+    along = along_at(*next);
+    chain.push_back(*next);
+    from = *next;
+  }
+}
+
+/// Moves the point before a corner where it came too close to it.
+void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
+  const std::size_t n = chain.size();
+  if (n < 3 || !chain[n - 1].corner || chain[n - 2].corner) return;
+  const CreasePoint& before = chain[n - 3];
+  const Vec3 corner = chain[n - 1].point.position;
+  const double left = distance(chain[n - 2].point.position, corner);
+  if (left > 0.6 * chain[n - 2].size) return;
+  const Vec3 way = corner - before.point.position;
+  const double half = 0.5 * length(way);
+  if (half > 0.55 * spacing_ || half < 0.6 * chain[n - 2].size) {
+    if (half < 0.6 * chain[n - 2].size) chain.erase(chain.end() - 2);
+    if (half < 0.6 * chain[n - 1].size) return;
+  }
+  if (auto middle = next_on_crease(before, tangential(way, before.point.normal), half)) {
+    middle->outward = chain[n - 2].outward;
+    chain[n - 2] = *middle;
+  }
+}
+
+void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
+  std::optional<std::uint32_t> previous, first;
+  const auto link = [&](std::uint32_t a, std::uint32_t b) {
+    along_crease_[a].push_back(b);
+    along_crease_[b].push_back(a);
+  };
+  for (const CreasePoint& crease : chain) {
+    // Corners are reached from both creases.
+    std::optional<std::uint32_t> same;
+    thread_local std::vector<std::uint32_t> ids;
+    grid_.query(crease.point.position, 0.15 * crease.size, 0.3, ids);
+    for (const std::uint32_t id : ids) {
+      const CoverPoint& q = points_[id];
+      if (q.on_crease() && distance(q.position, crease.point.position) < 0.15 * crease.size &&
+          dot(q.normal, crease.point.normal) > walk_.cos_normal_tolerance() &&
+          dot(q.inward, crease.outward) < 0.3 && walk_.over(q, crease.point.position)) {
+        same = id;
+      }
+    }
+    if (!same) {
+      const double shallow = length(crease.outward);
+      const double inset = std::max(kInset * crease.size, kInsetEpsilons * walk_.rays().epsilon());
+      std::optional<ZonePoint> inside;
+      for (double depth = inset / shallow; !inside && depth < 40 * inset; depth *= 2) {
+        inside = walk_.over(crease.point,
+                            crease.point.position - normalized(crease.outward) * depth);
+      }
+      if (!inside) {
+        previous.reset();
+        continue;
+      }
+      CoverPoint point;
+      static_cast<ZonePoint&>(point) = *inside;
+      point.size = crease.size;
+      point.inward = -tangential(crease.outward, point.normal);
+      same = static_cast<std::uint32_t>(points_.size());
+      add(point);
+    }
+    if (previous && *previous != *same) link(*previous, *same);
+    if (!first) first = same;
+    previous = same;
+  }
+  if (closed && first && previous && *first != *previous) link(*previous, *first);
+}
+
+/// Looks for the surfaces that adjoin a crease, by rays from around it.
+void CoverPoints::look_across(const CreasePoint& crease) {
+  const double around = 0.05 * crease.size;
+  const Vec3 &n = crease.point.normal, m = normalized(crease.outward);
+  const Vec3 past = crease.point.position + m * (0.2 * around);
+  thread_local std::vector<SurfaceHit> hits;
+  const auto look = [&](const Vec3& from, const Vec3& direction) {
+    walk_.rays().all_hits({from, direction}, {0, 3 * around}, hits);
+    for (const SurfaceHit& hit : hits) {
+      if (dot(hit.normal, direction) >= 0) continue;
+      if (const auto found = walk_.at(hit)) beyond_.push_back(*found);
+    }
+  };
+  look(crease.point.position - m * around + n * around, m);  // a wall
+  look(past - n * around + m * around, -m);                  // down over an edge
+  look(past + m * around + n * around, -n);                  // a change of zone
+  look(past - n * (2 * around), n);                          // the other side
+}
+
+void CoverPoints::trace(const CreaseSeed& seed) {
+  const double size = seed.size, tolerance = fineness(size);
+  const double slack = 0.05 * size + 1e-3 * spacing_;
+  const double near = std::max(0.0, seed.distance - slack), far = seed.distance + slack;
+  if (walk_.step(seed.from, seed.from.position + seed.direction * far)) return;
+  const Rim rim = walk_.rim(seed.from, seed.direction, near, far, tolerance);
+  if (known(rim.point, size)) return;
+  const Vec3 reached = tangential(seed.direction, rim.point.normal);
+  const auto outward = outward_at(rim.point, reached, size);
+  if (!outward) return;
+  CreasePoint start{rim.point, *outward, size};
+  start.size = sized(start, size);
+
+  std::vector<CreasePoint> chain{start}, back{start};
+  bool closed = false;
+  const Vec3 left = left_of(start.point.normal, start.outward);
+  follow(start, left, chain, closed);
+  if (!closed) {
+    bool unused = false;
+    follow(start, -left, back, unused);
+  }
+  even_out(chain), even_out(back);
+  std::vector<CreasePoint> whole(back.rbegin(), back.rend() - 1);
+  whole.insert(whole.end(), chain.begin(), chain.end());
+  look_across(start);
+  commit(whole, closed);
+}
+
+}  // namespace isolux

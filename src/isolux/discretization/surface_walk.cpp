@@ -1,0 +1,77 @@
+#include "isolux/discretization/surface_walk.h"
+
+namespace isolux {
+namespace {
+
+// A surface that turns by up to α_n within a step is found within this part of the step's length
+// from the tangent plane.
+constexpr double kReach = 0.6;
+
+}  // namespace
+
+SurfaceWalk::SurfaceWalk(const RayCaster& rays, double normal_tolerance)
+    : rays_(rays), tolerance_(normal_tolerance), cos_tolerance_(std::cos(normal_tolerance)) {}
+
+std::optional<ZonePoint> SurfaceWalk::at(const SurfaceHit& hit) const {
+  if (rays_.buried(hit.point, hit.normal)) return std::nullopt;
+  const Scene& scene = rays_.scene();
+  ZonePoint found;
+  found.position = hit.point;
+  found.normal = hit.normal;
+  found.surface = hit.surface;
+  found.reflectance = scene.material_of(hit.surface.object).reflectance;
+  if (!hit.back) found.emission = scene.objects[hit.surface.object].exitance;
+  return found;
+}
+
+std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& target) const {
+  const Vec3 d = target - from.position;
+  const Vec3 along = d - from.normal * dot(d, from.normal);
+  const double reach = kReach * length(along) + 16 * rays_.epsilon();
+  const Ray ray{from.position + along + from.normal * reach, -from.normal};
+  thread_local std::vector<SurfaceHit> hits;
+  rays_.all_hits(ray, {0, 2 * reach}, hits);
+  const SurfaceHit* nearest = nullptr;
+  for (const SurfaceHit& hit : hits) {
+    if (dot(hit.normal, from.normal) < cos_tolerance_) continue;
+    if (!nearest || std::abs(hit.t - reach) < std::abs(nearest->t - reach)) nearest = &hit;
+  }
+  if (!nearest) return std::nullopt;
+  std::optional<ZonePoint> found = at(*nearest);
+  if (found && (found->reflectance != from.reflectance || found->emission != from.emission)) {
+    return std::nullopt;
+  }
+  return found;
+}
+
+bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b) const {
+  // Lifted over the bulge of the surface between them, which is an eighth of its turn.
+  const double turn = length(a.normal - b.normal), along = distance(a.position, b.position);
+  const double lift = 0.2 * turn * along + 8 * rays_.epsilon();
+  return !rays_.occluded({a.position + a.normal * lift, b.position + b.normal * lift});
+}
+
+std::optional<ZonePoint> SurfaceWalk::step(const ZonePoint& from, const Vec3& target) const {
+  std::optional<ZonePoint> found = over(from, target);
+  if (found && !open(from, *found)) return std::nullopt;
+  return found;
+}
+
+Rim SurfaceWalk::rim(const ZonePoint& from, const Vec3& direction, double near, double far,
+                     double tolerance) const {
+  Rim rim{from, near};
+  if (near > 0) {
+    if (const auto start = over(from, from.position + direction * near)) rim.point = *start;
+  }
+  while (far - rim.distance > tolerance) {
+    const double middle = 0.5 * (rim.distance + far);
+    if (const auto found = step(from, from.position + direction * middle)) {
+      rim = {*found, middle};
+    } else {
+      far = middle;
+    }
+  }
+  return rim;
+}
+
+}  // namespace isolux
