@@ -51,7 +51,10 @@ class CoverPoints {
     ZonePoint point;  // on the crease, or less than the walk's tolerance inside
     Vec3 outward;     // unit, tangential, across the crease
     double size;
+    // Where it is a corner: a point on the other crease, and the direction across that.
     bool corner = false;
+    ZonePoint turn_off_from = {};
+    Vec3 turn_off = {};
   };
   Surroundings look_around(const ZonePoint& point, const Vec3& first, double limit) const;
   bool crowded(const ZonePoint& point, double size) const;
@@ -62,7 +65,7 @@ class CoverPoints {
   void run_creases();
 
   void trace(const CreaseSeed& seed);
-  bool known(const SurfacePoint& point, double size) const;
+  bool known(const SurfacePoint& point, const Vec3& outward, double size) const;
   std::optional<Vec3> outward_at(const ZonePoint& rim, const Vec3& direction, double size) const;
   std::optional<CreasePoint> next_on_crease(const CreasePoint& from, const Vec3& along,
                                             double step) const;
