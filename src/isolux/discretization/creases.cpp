@@ -295,7 +295,7 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       point.size = crease.size;
       point.inward = -tangential(crease.outward, point.normal);
       same = static_cast<std::uint32_t>(points_.size());
-      add(point);
+      add(point, {point.size});
       if (crease.corner) {
         crease_seeds_.push_back({crease.turn_off_from, crease.turn_off, 0, crease.size});
       }
