@@ -200,6 +200,7 @@ void cover(Triangulation& mesh, const RayCaster& rays, const CoverOptions& optio
   for (const ZonePoint& point : points_on_all_surfaces(walk, options.seed)) {
     points.grow_from(point);
   }
+  points.settle();
   Weaver(mesh, points, walk).weave();
 }
 

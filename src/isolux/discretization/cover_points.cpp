@@ -17,10 +17,6 @@ constexpr double kGrading = 0.5;
 // The least distance of two points, and of a point from a crease, in sizes.
 constexpr double kApart = 0.85;
 constexpr double kFromCrease = 0.5;
-// Points on a crease are this many sizes inside it.
-constexpr double kInset = 1e-3;
-// A crease turns by at most this from point to point, rad.
-constexpr double kCreaseTurn = 0.2;
 constexpr int kDirections = 8;
 
 Vec3 tangential(const Vec3& d, const Vec3& normal) {
@@ -74,7 +70,8 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
       around.to_crease = std::min(around.to_crease, rim.distance);
     }
   }
-  around.size = std::min(limit, kTurnPerSize * walk_.normal_tolerance() / std::max(curvature, 1e-30));
+  around.size =
+      std::min(limit, kTurnPerSize * walk_.normal_tolerance() / std::max(curvature, 1e-30));
   for (int k = 0; k < kDirections / 2; ++k) {
     const auto least = [&](int i) {
       return ends[i] <= ends[(i + 1) % kDirections] &&
@@ -117,28 +114,76 @@ bool CoverPoints::crowded(const ZonePoint& point, double size) const {
   });
 }
 
-void CoverPoints::add(const CoverPoint& point) {
+void CoverPoints::add(const CoverPoint& point, const Surroundings& around) {
   const auto id = static_cast<std::uint32_t>(points_.size());
   points_.push_back(point);
+  surroundings_.push_back(around);
+  surroundings_.back().creases.clear();
   along_crease_.emplace_back();
   grid_.insert(id, point.position, point.size);
   front_.push({point.size, id});
 }
 
+/// The largest size on the object of a point.
+double CoverPoints::largest_on(const ZonePoint& point) const {
+  const Object& object = walk_.rays().scene().objects[point.surface.object];
+  return std::min(spacing_, 0.25 * object.shape->bounds().diagonal());
+}
+
 void CoverPoints::grow_from(const ZonePoint& point) {
   beyond_.push_back(point);
-  const Scene& scene = walk_.rays().scene();
   for (std::size_t next = 0; next < beyond_.size(); ++next) {
     const ZonePoint from = beyond_[next];
-    const double whole = scene.objects[from.surface.object].shape->bounds().diagonal();
-    offer(from, std::min(spacing_, 0.25 * whole));
-    while (!front_.empty()) {
+    offer(from, largest_on(from));
+    spawn_all();
+  }
+  beyond_.clear();
+}
+
+void CoverPoints::spawn_all() {
+  while (!front_.empty()) {
+    const std::uint32_t parent = front_.top().second;
+    front_.pop();
+    spawn(parent);
+  }
+}
+
+void CoverPoints::settle() {
+  const std::vector<CoverPoint> points = std::move(points_);
+  const std::vector<Surroundings> around = std::move(surroundings_);
+  const auto along = std::move(along_crease_);
+  points_.clear(), surroundings_.clear(), along_crease_.clear();
+  grid_ = GradedGrid(walk_.rays().scene().bounds().lower);
+
+  std::vector<std::uint32_t> ids(points.size());
+  std::vector<Front> between;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (points[i].on_crease()) {
+      ids[i] = static_cast<std::uint32_t>(points_.size());
+      add(points[i], around[i]);
+    } else {
+      between.emplace_back(around[i].size, i);
+    }
+  }
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    for (const std::uint32_t k : along[i]) along_crease_[ids[i]].push_back(ids[k]);
+  }
+  std::sort(between.begin(), between.end());
+  for (const auto& [size, i] : between) {
+    while (!front_.empty() && front_.top().first < size) {
       const std::uint32_t parent = front_.top().second;
       front_.pop();
       spawn(parent);
     }
+    accept(points[i], around[i]);
   }
-  beyond_.clear();
+  spawn_all();
+  while (!beyond_.empty()) {
+    const ZonePoint point = beyond_.back();
+    beyond_.pop_back();
+    offer(point, largest_on(point));
+    spawn_all();
+  }
 }
 
 void CoverPoints::offer(const ZonePoint& point, double limit) {
@@ -152,12 +197,16 @@ void CoverPoints::offer(const ZonePoint& point, double limit) {
     crease_seeds_.push_back({point, ending.direction, ending.distance, around.size});
   }
   run_creases();
+  accept(point, around);
+}
+
+void CoverPoints::accept(const ZonePoint& point, const Surroundings& around) {
   const double size = graded(point, around.size);
   if (around.to_crease < kFromCrease * size || crowded(point, size)) return;
   CoverPoint accepted;
   static_cast<ZonePoint&>(accepted) = point;
   accepted.size = size;
-  add(accepted);
+  add(accepted, around);
 }
 
 void CoverPoints::spawn(std::uint32_t id) {

@@ -28,6 +28,10 @@ class CoverPoints {
   /// they are not covered yet.
   void grow_from(const ZonePoint& point);
 
+  /// Strews the points between creases once more, the finest first, now that all creases are known:
+  /// so sizes grow smoothly away from what is small.
+  void settle();
+
   std::span<const CoverPoint> points() const { return points_; }
   const GradedGrid& grid() const { return grid_; }
 
@@ -51,18 +55,24 @@ class CoverPoints {
     ZonePoint point;  // on the crease, or less than the walk's tolerance inside
     Vec3 outward;     // unit, tangential, across the crease
     double size;
+    // Where it is a corner: a point on the other crease, and the direction across that.
     bool corner = false;
+    ZonePoint turn_off_from = {};
+    Vec3 turn_off = {};
   };
   Surroundings look_around(const ZonePoint& point, const Vec3& first, double limit) const;
   bool crowded(const ZonePoint& point, double size) const;
   double graded(const ZonePoint& point, double size) const;
   void offer(const ZonePoint& point, double limit);
+  double largest_on(const ZonePoint& point) const;
   void spawn(std::uint32_t parent);
-  void add(const CoverPoint& point);
+  void accept(const ZonePoint& point, const Surroundings& around);
+  void add(const CoverPoint& point, const Surroundings& around);
+  void spawn_all();
   void run_creases();
 
   void trace(const CreaseSeed& seed);
-  bool known(const SurfacePoint& point, double size) const;
+  bool known(const SurfacePoint& point, const Vec3& outward, double size) const;
   std::optional<Vec3> outward_at(const ZonePoint& rim, const Vec3& direction, double size) const;
   std::optional<CreasePoint> next_on_crease(const CreasePoint& from, const Vec3& along,
                                             double step) const;
@@ -82,6 +92,7 @@ class CoverPoints {
   Random random_;
   GradedGrid grid_;
   std::vector<CoverPoint> points_;
+  std::vector<Surroundings> surroundings_;                // of the points, their creases left out
   std::vector<std::vector<std::uint32_t>> along_crease_;  // neighbours on the same crease
   using Front = std::pair<double, std::uint32_t>;
   std::priority_queue<Front, std::vector<Front>, std::greater<>> front_;  // finest first

@@ -13,6 +13,8 @@ constexpr double kCreaseTurn = 0.2;
 constexpr double kAside = 0.25;
 // Points on a crease are no closer than this part of where it was first met.
 constexpr double kLeastStep = 0.02;
+// Corners this close together, in sizes, are one, where they point the same way.
+constexpr double kSame = 0.05;
 
 Vec3 tangential(const Vec3& d, const Vec3& normal) {
   return normalized(d - normal * dot(d, normal));
@@ -29,15 +31,18 @@ Vec3 left_of(const Vec3& normal, const Vec3& outward) { return cross(normal, out
 
 }  // namespace
 
-/// Whether the crease is traced already where `point` lies on it.
-bool CoverPoints::known(const SurfacePoint& point, double size) const {
+/// Whether the crease is traced already where `point` lies on it, `outward` across it.
+bool CoverPoints::known(const SurfacePoint& point, const Vec3& outward, double size) const {
   thread_local std::vector<std::uint32_t> ids;
   grid_.query(point.position, 1.7 * size, 1.7, ids);
   return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
     const CoverPoint& q = points_[id];
     if (!q.on_crease() || dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
+    if (dot(q.inward, outward) > -0.3) return false;
     const double near = 0.08 * q.size;
-    if (distance(q.position, point.position) < near) return walk_.over(q, point.position).has_value();
+    if (distance(q.position, point.position) < near) {
+      return walk_.over(q, point.position).has_value();
+    }
     return std::any_of(along_crease_[id].begin(), along_crease_[id].end(), [&](std::uint32_t r) {
       return distance_to_segment(point.position, q.position, points_[r].position) < near &&
              dot(point.position - q.position, q.inward) < near && walk_.over(q, point.position);
@@ -156,7 +161,8 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       const auto meeting = corner(from, along, other, step);
       if (!meeting) return false;
       chain.push_back(*meeting);
-      crease_seeds_.push_back({other.point, other.outward, 0, from.size});
+      chain.back().turn_off = other.outward;
+      chain.back().turn_off_from = other.point;
       return true;
     };
 
@@ -225,7 +231,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       closed = true;
       return;
     }
-    if (known(next->point, from.size) || met(chain, *next, step)) return;
+    if (known(next->point, next->outward, from.size) || met(chain, *next, step)) return;
     along = along_at(*next);
     chain.push_back(*next);
     from = *next;
@@ -253,25 +259,26 @@ void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
 }
 
 void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
-  std::optional<std::uint32_t> previous, first;
+  constexpr std::uint32_t kNone = ~0u;
+  std::uint32_t previous = kNone, first = kNone;
   const auto link = [&](std::uint32_t a, std::uint32_t b) {
     along_crease_[a].push_back(b);
     along_crease_[b].push_back(a);
   };
   for (const CreasePoint& crease : chain) {
     // Corners are reached from both creases.
-    std::optional<std::uint32_t> same;
+    std::uint32_t same = kNone;
     thread_local std::vector<std::uint32_t> ids;
-    grid_.query(crease.point.position, 0.15 * crease.size, 0.3, ids);
+    grid_.query(crease.point.position, kSame * crease.size, 1, ids);
     for (const std::uint32_t id : ids) {
       const CoverPoint& q = points_[id];
-      if (q.on_crease() && distance(q.position, crease.point.position) < 0.15 * crease.size &&
+      if (q.on_crease() && distance(q.position, crease.point.position) < kSame * crease.size &&
           dot(q.normal, crease.point.normal) > walk_.cos_normal_tolerance() &&
-          dot(q.inward, crease.outward) < 0.3 && walk_.over(q, crease.point.position)) {
+          dot(q.inward, normalized(crease.outward)) < -0.5 && walk_.over(q, crease.point.position)) {
         same = id;
       }
     }
-    if (!same) {
+    if (same == kNone) {
       const double shallow = length(crease.outward);
       const double inset = std::max(kInset * crease.size, kInsetEpsilons * walk_.rays().epsilon());
       std::optional<ZonePoint> inside;
@@ -280,7 +287,7 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
                             crease.point.position - normalized(crease.outward) * depth);
       }
       if (!inside) {
-        previous.reset();
+        previous = kNone;
         continue;
       }
       CoverPoint point;
@@ -288,32 +295,36 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       point.size = crease.size;
       point.inward = -tangential(crease.outward, point.normal);
       same = static_cast<std::uint32_t>(points_.size());
-      add(point);
+      add(point, {point.size});
+      if (crease.corner) {
+        crease_seeds_.push_back({crease.turn_off_from, crease.turn_off, 0, crease.size});
+      }
     }
-    if (previous && *previous != *same) link(*previous, *same);
-    if (!first) first = same;
+    if (previous != kNone && previous != same) link(previous, same);
+    if (first == kNone) first = same;
     previous = same;
   }
-  if (closed && first && previous && *first != *previous) link(*previous, *first);
+  if (closed && previous != kNone && first != previous) link(previous, first);
 }
 
-/// Looks for the surfaces that adjoin a crease, by rays from around it.
+/// Looks for the surfaces that adjoin a crease, by rays from around it, wide and narrow ones.
 void CoverPoints::look_across(const CreasePoint& crease) {
-  const double around = 0.05 * crease.size;
   const Vec3 &n = crease.point.normal, m = normalized(crease.outward);
-  const Vec3 past = crease.point.position + m * (0.2 * around);
   thread_local std::vector<SurfaceHit> hits;
-  const auto look = [&](const Vec3& from, const Vec3& direction) {
-    walk_.rays().all_hits({from, direction}, {0, 3 * around}, hits);
-    for (const SurfaceHit& hit : hits) {
-      if (dot(hit.normal, direction) >= 0) continue;
-      if (const auto found = walk_.at(hit)) beyond_.push_back(*found);
-    }
-  };
-  look(crease.point.position - m * around + n * around, m);  // a wall
-  look(past - n * around + m * around, -m);                  // down over an edge
-  look(past + m * around + n * around, -n);                  // a change of zone
-  look(past - n * (2 * around), n);                          // the other side
+  for (const double around : {0.05 * crease.size, 0.005 * crease.size, 0.0005 * crease.size}) {
+    const Vec3 past = crease.point.position + m * (0.2 * around);
+    const auto look = [&](const Vec3& from, const Vec3& direction) {
+      walk_.rays().all_hits({from, direction}, {0, 3 * around}, hits);
+      for (const SurfaceHit& hit : hits) {
+        if (dot(hit.normal, direction) >= 0) continue;
+        if (const auto found = walk_.at(hit)) beyond_.push_back(*found);
+      }
+    };
+    look(crease.point.position - m * around + n * around, m);  // a wall
+    look(past - n * around + m * around, -m);                  // down over an edge
+    look(past + m * around + n * around, -n);                  // a change of zone
+    look(past - n * (2 * around), n);                          // the other side
+  }
 }
 
 void CoverPoints::trace(const CreaseSeed& seed) {
@@ -322,10 +333,9 @@ void CoverPoints::trace(const CreaseSeed& seed) {
   const double near = std::max(0.0, seed.distance - slack), far = seed.distance + slack;
   if (walk_.step(seed.from, seed.from.position + seed.direction * far)) return;
   const Rim rim = walk_.rim(seed.from, seed.direction, near, far, tolerance);
-  if (known(rim.point, size)) return;
   const Vec3 reached = tangential(seed.direction, rim.point.normal);
   const auto outward = outward_at(rim.point, reached, size);
-  if (!outward) return;
+  if (!outward || known(rim.point, *outward, size)) return;
   CreasePoint start{rim.point, *outward, size};
   start.size = sized(start, size);
 

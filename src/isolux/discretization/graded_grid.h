@@ -16,7 +16,7 @@ class GradedGrid {
 
   void insert(std::uint32_t id, const Vec3& position, double size) {
     const int level = static_cast<int>(std::ceil(std::log2(size)));
-    levels_.try_emplace(level, origin_, std::ldexp(1.0, level)).first->second.insert(id, position);
+    levels_.try_emplace(level, origin_, std::ldexp(4.0, level)).first->second.insert(id, position);
   }
 
   /// A superset of the ids within `radius` and within `sizes` times their own size of `center`;
