@@ -1,5 +1,6 @@
 #include "isolux/discretization/mesh_rays.h"
 
+#include "isolux/core/vectorize.h"
 #include "isolux/raycast/triangle_tree.h"
 
 namespace isolux {
@@ -28,15 +29,7 @@ struct BoundingSpheres {
   std::size_t size() const { return x.size(); }
 };
 
-// One version for each width of vector units; which one runs is decided at start. The culling is
-// conservative, so that all give the same hits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define ISOLUX_VECTORIZE __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define ISOLUX_VECTORIZE
-#endif
-
-/// touched[i] = 1 where the line comes within sphere `first` + i.
+/// touched[i] = 1 where the line comes within sphere `first` + i, or, for rounding, hardly outside.
 ISOLUX_VECTORIZE
 void touch(const BoundingSpheres& spheres, std::size_t first, const Ray& ray,
            std::vector<std::uint8_t>& touched) {
