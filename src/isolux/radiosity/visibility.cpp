@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "isolux/radiosity/form_factor.h"
-
 namespace isolux {
 namespace {
 
@@ -148,15 +146,12 @@ std::uint64_t group_form_factors(const RayCaster& rays, const Emitter& emitter,
                                  const Bounds& targets, std::span<const Receiver> receivers,
                                  std::span<const std::uint32_t> group, int subdivisions,
                                  std::span<double> factors) {
-  const auto set_whole = [&](std::uint32_t i) {
-    factors[i] = form_factor(receivers[i].point, receivers[i].normal, emitter.corners);
-  };
   Bounds starts;
   for (std::uint32_t i : group) starts.include(receivers[i].point);
   // Where nothing stands between them and the emitter, they see it whole.
   const Blockers blockers = rays.blockers(starts, targets);
   if (blockers.none()) {
-    for (std::uint32_t i : group) set_whole(i);
+    form_factors(receivers, group, emitter.corners, factors);
     return 0;
   }
 
@@ -172,9 +167,11 @@ std::uint64_t group_form_factors(const RayCaster& rays, const Emitter& emitter,
   }
   rays.occluded(blockers, std::span(segments).first(3 * n), blocked);
   std::uint64_t ray_count = 3 * n;
+  std::array<std::uint32_t, kGroup> open;
+  std::size_t open_count = 0;
   for (std::size_t k = 0; k < n; ++k) {
     if (!emitter.light && !(blocked[k] | blocked[n + k] | blocked[2 * n + k])) {
-      set_whole(group[k]);
+      open[open_count++] = group[k];
       continue;
     }
     View view(rays, emitter, receivers[group[k]], blockers);
@@ -185,6 +182,7 @@ std::uint64_t group_form_factors(const RayCaster& rays, const Emitter& emitter,
     factors[group[k]] = view.form_factor_of(whole, emitter.light ? 2 : 0, subdivisions);
     ray_count += view.ray_count;
   }
+  form_factors(receivers, std::span(open).first(open_count), emitter.corners, factors);
   return ray_count;
 }
 
