@@ -39,6 +39,10 @@ std::span<const VertexId> SpatialOrder::of(const Triangulation& mesh) {
     std::sort(codes.begin(), codes.end());
     for (std::size_t i = 0; i < codes.size(); ++i) order_[i] = codes[i].second;
     sorted_ = order_.size();
+    receivers_.clear();
+  }
+  for (std::size_t i = receivers_.size(); i < order_.size(); ++i) {
+    receivers_.push_back({vertices[order_[i]].gather_point, vertices[order_[i]].normal});
   }
   return order_;
 }
