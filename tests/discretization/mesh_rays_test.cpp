@@ -72,5 +72,26 @@ TEST(MeshRays, HitsSinceLeavesOlderTrianglesOut) {
   }
 }
 
+TEST(MeshRays, ManyRaysFindWhatEachFinds) {
+  GrowingSquare square;
+  square.grow(300);
+  MeshRays rays(square.mesh);
+  square.grow(50);
+  for (TriangleId t = 0; t < square.mesh.triangles().size(); t += 7) square.mesh.remove(t);
+  std::vector<Ray> bundle;
+  for (int i = 0; i < 40; ++i) bundle.push_back({{0.1 + 0.02 * i, 0.5, 1}, {0.1, 0.2, -1}});
+  std::vector<std::vector<MeshHit>> together(bundle.size());
+  rays.all_hits(bundle, {}, together);
+  std::vector<MeshHit> alone;
+  for (std::size_t i = 0; i < bundle.size(); ++i) {
+    rays.all_hits(bundle[i], {}, alone);
+    ASSERT_EQ(together[i].size(), alone.size());
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      EXPECT_EQ(together[i][k].triangle, alone[k].triangle);
+      EXPECT_EQ(together[i][k].t, alone[k].t);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isolux

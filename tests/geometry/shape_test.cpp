@@ -69,6 +69,47 @@ TEST_P(ShapeTest, HitsLieOnTheSurfaceAndOnTheLine) {
   EXPECT_GT(count, 20u);
 }
 
+TEST_P(ShapeTest, OccludesManySegmentsAsEachByItself) {
+  constexpr double kEnd = 0.999;
+  SegmentBlock block;
+  std::size_t lane = 0, blocked_count = 0, count = 0;
+  const auto ask = [&](const Ray& ray) {
+    block.set(lane++, ray);
+    if (lane < SegmentBlock::kLanes) return;
+    lane = 0;
+    SegmentBlock::Mask blocked{};
+    blocked[3] = 1;
+    shape().occlude(block, kEnd, blocked);
+    EXPECT_EQ(blocked[3], 1) << "what is blocked stays so";
+    for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+      if (i == 3) continue;
+      EXPECT_EQ(blocked[i], shape().occludes(block.ray(i), 0, kEnd)) << "segment " << count;
+      blocked_count += blocked[i];
+      ++count;
+    }
+  };
+  Random random(11);
+  for_random_lines(4000, 2, [&](const Ray& line) {
+    const Ray ray{line.origin, line.direction * (6 * random.uniform())};
+    ask(ray);
+    // Along the axes and their planes as well, where formulas divide by nothing.
+    Ray special = ray;
+    special.direction[static_cast<int>(random.below(3))] = 0;
+    ask(special);
+    special.direction[static_cast<int>(random.below(3))] = 0;
+    ask(special);
+  });
+  for (const Vec3& edge : GetParam().edges) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 step;
+      step[axis] = 1;
+      ask({edge - step * 0.5, step}), ask({edge, step});
+    }
+  }
+  EXPECT_GT(blocked_count, 20u);
+  EXPECT_LT(blocked_count, count);
+}
+
 TEST_P(ShapeTest, NormalsAreUnitGradients) {
   constexpr double h = 1e-6;
   std::size_t checked = 0, skipped = 0;

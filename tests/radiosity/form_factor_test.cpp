@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "isolux/core/random.h"
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/sphere.h"
@@ -122,6 +123,33 @@ TEST(FormFactor, AgreesWithThePublishedClosedForms) {
     ++compared;
   }
   EXPECT_GE(compared, 18);
+}
+
+TEST(FormFactor, OfManyReceiversIsThatOfEach) {
+  Random random(4);
+  const auto point = [&] { return Vec3{random.uniform(), random.uniform(), random.uniform()}; };
+  std::size_t whole = 0;
+  for (int i = 0; i < 300; ++i) {
+    // From tiny and far away to large and cut by the horizon; a corner itself once.
+    const double size = std::pow(10, -3 * random.uniform());
+    const Vec3 p = point();
+    const std::array<Vec3, 3> triangle{p, p + point() * size, p - point() * size};
+    std::vector<Receiver> receivers{{p, {0, 0, 1}}};
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t k = 0; k < 37; ++k) {
+      receivers.push_back({point(), normalized(point() - Vec3{0.5, 0.5, 0.5})});
+      if (k % 3 != 1) indices.push_back(k);
+    }
+    std::vector<double> factors(receivers.size(), -1);
+    form_factors(receivers, indices, triangle, factors);
+    for (std::uint32_t k = 0; k < receivers.size(); ++k) {
+      const bool asked = std::find(indices.begin(), indices.end(), k) != indices.end();
+      const double alone = form_factor(receivers[k].point, receivers[k].normal, triangle);
+      EXPECT_EQ(factors[k], asked ? alone : -1) << "triangle " << i << ", receiver " << k;
+      whole += asked && alone > 0;
+    }
+  }
+  EXPECT_GT(whole, 1000u);
 }
 
 }  // namespace

@@ -162,5 +162,35 @@ objects: [{shape: {sphere: {center: [100000, 0, 0], radius: 1}}, material: m}]
   }
 }
 
+TEST(RayCaster, TheBlockersOfTwoBoxesStopTheSameSegmentsAsAll) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  Random random(8);
+  std::ptrdiff_t none = 0, blocked_count = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Bounds from, to;
+    for (Bounds* box : {&from, &to}) {
+      const Vec3 corner = random_point(random) * 0.9;
+      box->include(corner), box->include(corner + random_point(random) * 0.1);
+    }
+    std::array<Segment, 37> segments;
+    for (Segment& s : segments) {
+      const Vec3 a = random_point(random), b = random_point(random);
+      const Vec3 f = from.upper - from.lower, t = to.upper - to.lower;
+      s = {from.lower + Vec3{a.x * f.x, a.y * f.y, a.z * f.z},
+           to.lower + Vec3{b.x * t.x, b.y * t.y, b.z * t.z}};
+    }
+    std::array<std::uint8_t, 37> among, all;
+    const Blockers blockers = rays.blockers(from, to);
+    rays.occluded(blockers, segments, among);
+    rays.occluded(segments, all);
+    EXPECT_EQ(among, all);
+    none += blockers.none();
+    blocked_count += std::count(all.begin(), all.end(), 1);
+  }
+  EXPECT_GT(none, 300);
+  EXPECT_GT(blocked_count, 1000);
+}
+
 }  // namespace
 }  // namespace isolux

@@ -9,6 +9,16 @@ namespace {
 
 Vec3 random_point(Random& random) { return {random.uniform(), random.uniform(), random.uniform()}; }
 
+TriangleTree tree_of(const std::vector<TriangleCorners>& triangles) {
+  TriangleSoup soup;
+  for (const TriangleCorners& corners : triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.insert(soup.points.end(), corners.begin(), corners.end());
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return TriangleTree(std::move(soup));
+}
+
 TEST(TriangleTree, FindsWhatEachTriangleFindsByItself) {
   Random random(3);
   std::vector<TriangleCorners> triangles;
@@ -16,7 +26,7 @@ TEST(TriangleTree, FindsWhatEachTriangleFindsByItself) {
     const Vec3 p = random_point(random);
     triangles.push_back({p, p + random_point(random) * 0.2, p + random_point(random) * 0.2});
   }
-  const TriangleTree tree(triangles);
+  const TriangleTree tree = tree_of(triangles);
   std::vector<TriangleHit> hits;
   int differing = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -49,7 +59,7 @@ TEST(TriangleTree, LetsNoRayThroughBetweenNeighbours) {
   for (int i = 0; i <= kBlades; ++i)
     rim.push_back({std::cos(i * 0.523598776), std::sin(i * 0.523598776), 0});
   for (int i = 0; i < kBlades; ++i) fan.push_back({Vec3{0, 0, 0}, rim[i], rim[i + 1]});
-  const TriangleTree tree(fan);
+  const TriangleTree tree = tree_of(fan);
   Random random(5);
   std::vector<TriangleHit> hits;
   for (int i = 0; i < 5000; ++i) {

@@ -1,5 +1,6 @@
 #include "isolux/discretization/mesh_rays.h"
 
+#include "isolux/core/vectorize.h"
 #include "isolux/raycast/triangle_tree.h"
 
 namespace isolux {
@@ -28,15 +29,7 @@ struct BoundingSpheres {
   std::size_t size() const { return x.size(); }
 };
 
-// One version for each width of vector units; which one runs is decided at start. The culling is
-// conservative, so that all give the same hits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define ISOLUX_VECTORIZE __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define ISOLUX_VECTORIZE
-#endif
-
-/// touched[i] = 1 where the line comes within sphere `first` + i.
+/// touched[i] = 1 where the line comes within sphere `first` + i, or, for rounding, hardly outside.
 ISOLUX_VECTORIZE
 void touch(const BoundingSpheres& spheres, std::size_t first, const Ray& ray,
            std::vector<std::uint8_t>& touched) {
@@ -75,14 +68,16 @@ class MeshRays::Impl {
     }
     // A ray pays for each young triangle, a rebuild for each triangle: balanced near the root.
     if (young.size() * young.size() <= mesh.triangle_count() + 2048) return;
-    std::vector<TriangleCorners> corners;
+    TriangleSoup soup;
+    for (const Vertex& vertex : mesh.vertices()) soup.points.push_back(vertex.position);
     ids.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!mesh.triangle(static_cast<TriangleId>(i)).alive) continue;
-      ids.push_back(static_cast<TriangleId>(i));
-      corners.push_back(corners_of(mesh, static_cast<TriangleId>(i)));
+    for (TriangleId id = 0; id < n; ++id) {
+      const Triangle& triangle = mesh.triangle(id);
+      if (!triangle.alive) continue;
+      ids.push_back(id);
+      soup.triangles.push_back(triangle.vertices);
     }
-    tree = TriangleTree(corners);
+    tree = TriangleTree(std::move(soup));
     tree_end = n;
     young.clear();
   }
@@ -124,18 +119,31 @@ void MeshRays::hits_since(TriangleId first, const Ray& ray, Interval within,
 }
 
 void MeshRays::all_hits(const Ray& ray, Interval within, std::vector<MeshHit>& hits) const {
+  all_hits({&ray, 1}, within, {&hits, 1});
+}
+
+void MeshRays::all_hits(std::span<const Ray> rays, Interval within,
+                        std::span<std::vector<MeshHit>> hits) const {
   thread_local std::vector<TriangleHit> found;
-  found.clear();
-  hits.clear();
-  impl_->tree.all_hits(ray, within, found);
-  for (const TriangleHit& hit : found) {
-    const TriangleId id = impl_->ids[hit.triangle];
-    if (impl_->mesh.triangle(id).alive) hits.push_back({hit.t, id, hit.weights});
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    found.clear();
+    hits[i].clear();
+    impl_->tree.all_hits(rays[i], within, found);
+    for (const TriangleHit& hit : found) {
+      hits[i].push_back({hit.t, impl_->ids[hit.triangle], hit.weights});
+    }
   }
-  hits_since(0, ray, within, hits);
-  std::sort(hits.begin(), hits.end(), [](const MeshHit& a, const MeshHit& b) {
-    return std::pair(a.t, a.triangle) < std::pair(b.t, b.triangle);
-  });
+  // The triangles lie all over memory: reads of many rays in a row wait for it together.
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    std::erase_if(hits[i],
+                  [&](const MeshHit& hit) { return !impl_->mesh.triangle(hit.triangle).alive; });
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits_since(0, rays[i], within, hits[i]);
+    std::sort(hits[i].begin(), hits[i].end(), [](const MeshHit& a, const MeshHit& b) {
+      return std::pair(a.t, a.triangle) < std::pair(b.t, b.triangle);
+    });
+  }
 }
 
 }  // namespace isolux

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "isolux/discretization/triangulation.h"
@@ -31,6 +32,10 @@ class MeshRays {
   /// All hits with living triangles, from both sides, in ascending t, into `hits` (cleared
   /// first). May be asked from many threads while the triangulation stands still.
   void all_hits(const Ray& ray, Interval within, std::vector<MeshHit>& hits) const;
+
+  /// The same for many rays, faster: hits[i] are those of rays[i].
+  void all_hits(std::span<const Ray> rays, Interval within,
+                std::span<std::vector<MeshHit>> hits) const;
 
   /// As all_hits(), but only the triangles with id ≥ `first`; appends, unsorted.
   void hits_since(TriangleId first, const Ray& ray, Interval within,

@@ -167,6 +167,9 @@ TriangleId Triangulation::add_triangle(VertexId a, VertexId b, VertexId c) {
   triangle.vertices = {a, b, c};
   triangle.area = length(normal) / 2;
   triangle.normal = normalized(normal);
+  triangle.flat = std::all_of(triangle.vertices.begin(), triangle.vertices.end(), [&](VertexId v) {
+    return distance(vertices_[v].normal, triangle.normal) < 1e-9;
+  });
   const auto id = static_cast<TriangleId>(triangles_.size());
   triangles_.push_back(triangle);
   for (VertexId v : triangle.vertices) vertices_[v].triangles.push_back(id);

@@ -62,10 +62,11 @@ struct Triangle {
   std::array<VertexId, 3> vertices{};  ///< counter-clockwise seen from the lit side
   bool alive = true;                   ///< dead ones keep their id, so that ids stay valid
   bool on_light = false;
-  Vec3 normal;      ///< unit length
-  double area = 0;  ///< m²
-  Rgb emission;     ///< E_i, lm/m², zero but for the triangles of lights
-  Rgb shot;         ///< radiosity sent out so far, lm/m²
+  bool flat = false;  ///< its corners' normals are its own, to within 1e-9
+  Vec3 normal;        ///< unit length
+  double area = 0;    ///< m²
+  Rgb emission;       ///< E_i, lm/m², zero but for the triangles of lights
+  Rgb shot;           ///< radiosity sent out so far, lm/m²
 };
 
 /// The growing discretization: a triangulation of points of the scene, with its possible edges

@@ -3,10 +3,42 @@
 #include <fmt/format.h>
 
 #include "isolux/core/error.h"
+#include "isolux/core/vectorize.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Box::occludes() for many lines at once.
+ISOLUX_VECTORIZE
+void occlude_by_box(const SegmentBlock& segments, const Vec3& lower, const Vec3& upper,
+                    double t_max, SegmentBlock::Mask& blocked) {
+  for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+    double first = -kInfinity, last = kInfinity;
+    bool crosses = true, starts_inside = true, ends_inside = true;
+    // Along an axis that the line does not run, both ends are infinite: apart inside, else alike.
+    const auto clip = [&](double o, double d, double low, double high) {
+      const double at_low = (low - o) / d, at_high = (high - o) / d, end = o + d * t_max;
+      const double enter = std::min(at_low, at_high), leave = std::max(at_low, at_high);
+      crosses &= enter < leave;
+      first = std::max(first, enter);
+      last = std::min(last, leave);
+      starts_inside &= (o > low) & (o < high);
+      ends_inside &= (end > low) & (end < high);
+    };
+    clip(segments.from_x[i], segments.way_x[i], lower.x, upper.x);
+    clip(segments.from_y[i], segments.way_y[i], lower.y, upper.y);
+    clip(segments.from_z[i], segments.way_z[i], lower.z, upper.z);
+    crosses &= (first < last) & (last - first < kInfinity);
+    const bool met = ((first > 0) & (first < t_max)) | ((last > 0) & (last < t_max));
+    blocked[i] |= crosses & met & !(starts_inside & ends_inside);
+  }
+}
+
+}  // namespace
 
 Box::Box(const Vec3& lower, const Vec3& upper) : lower_(lower), upper_(upper) {
   require_point(lower, "lower");
@@ -20,7 +52,6 @@ Box::Box(const Vec3& lower, const Vec3& upper) : lower_(lower), upper_(upper) {
 }
 
 std::optional<Box::Piece> Box::inside(const Ray& ray) const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Piece piece{-kInfinity, kInfinity, 0, 0};
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     const int i = static_cast<int>(axis);
@@ -62,6 +93,10 @@ bool Box::occludes(const Ray& ray, double t_min, double t_max) const {
   if (contains(ray.at(t_min)) && contains(ray.at(t_max))) return false;
   const auto p = inside(ray);
   return p && ((p->enter > t_min && p->enter < t_max) || (p->leave > t_min && p->leave < t_max));
+}
+
+void Box::occlude(const SegmentBlock& segments, double t_max, SegmentBlock::Mask& blocked) const {
+  occlude_by_box(segments, lower_, upper_, t_max, blocked);
 }
 
 bool Box::avoids(const Bounds& box) const {

@@ -13,6 +13,8 @@ class Box final : public Shape {
   Bounds bounds() const override { return {lower_, upper_}; }
   void intersect(const Ray& ray, Hits& hits) const override;
   bool occludes(const Ray& ray, double t_min, double t_max) const override;
+  void occlude(const SegmentBlock& segments, double t_max,
+               SegmentBlock::Mask& blocked) const override;
   bool avoids(const Bounds& box) const override;
   bool solid() const override { return true; }
   bool contains(const Vec3& point) const override;

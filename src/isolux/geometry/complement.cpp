@@ -30,6 +30,11 @@ bool Complement::occludes(const Ray& ray, double t_min, double t_max) const {
   return shape_->occludes(ray, t_min, t_max);
 }
 
+void Complement::occlude(const SegmentBlock& segments, double t_max,
+                         SegmentBlock::Mask& blocked) const {
+  shape_->occlude(segments, t_max, blocked);
+}
+
 std::optional<TriangleSoup> Complement::triangulate(double max_edge) const {
   auto soup = shape_->triangulate(max_edge);
   if (soup) flip(*soup);

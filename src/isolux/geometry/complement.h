@@ -16,6 +16,8 @@ class Complement final : public Shape {
   Bounds bounds() const override { return shape_->bounds(); }
   void intersect(const Ray& ray, Hits& hits) const override;
   bool occludes(const Ray& ray, double t_min, double t_max) const override;
+  void occlude(const SegmentBlock& segments, double t_max,
+               SegmentBlock::Mask& blocked) const override;
   bool avoids(const Bounds& box) const override { return shape_->avoids(box); }
   bool solid() const override { return true; }
   bool contains(const Vec3& point) const override { return !shape_->contains(point); }

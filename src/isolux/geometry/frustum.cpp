@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "isolux/core/error.h"
+#include "isolux/core/vectorize.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/tessellation.h"
@@ -171,6 +172,54 @@ bool Frustum::occludes(const Ray& ray, double t_min, double t_max) const {
     if (t > t_min && t < t_max) return true;
   }
   return false;
+}
+
+/// occludes() of a capped frustum for many lines at once: localize(), inside_cone() and crossings()
+/// without branches. Lines that cross one nappe alone, or are parallel to the side or the caps, are
+/// left to the caller: `one_by_one`.
+ISOLUX_VECTORIZE
+void Frustum::occlude_by_solid(const Frustum& solid, const SegmentBlock& segments, double t_max,
+                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one) {
+  const Vec3 start = solid.start_, u = solid.frame_.u, v = solid.frame_.v, n = solid.frame_.n;
+  const Vec3 middle = start + n * (0.5 * solid.length_);
+  const double slope = solid.slope_, start_radius = solid.start_radius_, top = solid.length_;
+  for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+    const Ray ray = segments.ray(i);
+    const double shift = dot(middle - ray.origin, ray.direction) / length_squared(ray.direction);
+    const Vec3 near = ray.at(shift) - start;
+    const Vec3 o{dot(near, u), dot(near, v), dot(near, n)};
+    const Vec3 d{dot(ray.direction, u), dot(ray.direction, v), dot(ray.direction, n)};
+    const double radius = start_radius + slope * o.z, radius_change = slope * d.z;
+
+    const double a = d.x * d.x + d.y * d.y - radius_change * radius_change;
+    const double b = o.x * d.x + o.y * d.y - radius * radius_change;
+    const double c = o.x * o.x + o.y * o.y - radius * radius;
+    const double mx = o.x * radius_change - radius * d.x, my = o.y * radius_change - radius * d.y;
+    const double turn = o.x * d.y - o.y * d.x;
+    const double discriminant = mx * mx + my * my - turn * turn;
+    // Not a number where the line misses the cone, so that nothing below holds.
+    const double root = std::sqrt(discriminant);
+    const double q = -(b + std::copysign(root, b));
+    const double s1 = q / a, s2 = c / q;
+    const double at_start = -o.z / d.z, at_end = (top - o.z) / d.z;
+    const double enter = std::max(std::min(s1, s2), std::min(at_start, at_end));
+    const double leave = std::min(std::max(s1, s2), std::max(at_start, at_end));
+    const double first = enter + shift, last = leave + shift;
+    const bool regular = (a > 0) & (d.z != 0);
+    blocked[i] |= regular & (root > 0) & (enter < leave) &
+                  (((first > 0) & (first < t_max)) | ((last > 0) & (last < t_max)));
+    one_by_one[i] = regular ? 0 : 1;
+  }
+}
+
+void Frustum::occlude(const SegmentBlock& segments, double t_max,
+                      SegmentBlock::Mask& blocked) const {
+  if (!capped_) return Shape::occlude(segments, t_max, blocked);
+  SegmentBlock::Mask one_by_one;
+  occlude_by_solid(*this, segments, t_max, blocked, one_by_one);
+  for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+    if (one_by_one[i]) blocked[i] |= occludes(segments.ray(i), 0, t_max);
+  }
 }
 
 bool Frustum::contains(const Vec3& point) const {

@@ -14,6 +14,8 @@ class Frustum : public Shape {
   Bounds bounds() const override;
   void intersect(const Ray& ray, Hits& hits) const override;
   bool occludes(const Ray& ray, double t_min, double t_max) const override;
+  void occlude(const SegmentBlock& segments, double t_max,
+               SegmentBlock::Mask& blocked) const override;
   bool solid() const override { return capped_; }
   bool contains(const Vec3& point) const override;
   std::uint32_t face_count() const override { return capped_ ? 3 : 1; }
@@ -28,6 +30,8 @@ class Frustum : public Shape {
   };
   struct Line;
   struct Crossings;
+  static void occlude_by_solid(const Frustum& solid, const SegmentBlock& segments, double t_max,
+                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one);
   Line localize(const Ray& ray) const;
   Crossings crossings(const Line& line) const;
   Hit hit(const Line& line, const Crossing& crossing) const;

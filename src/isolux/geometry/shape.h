@@ -6,17 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "isolux/core/vec3.h"
+#include "isolux/geometry/segment_block.h"
 
 namespace isolux {
-
-/// The line origin + t direction. The direction need not have length 1; t counts in its lengths.
-struct Ray {
-  Vec3 origin;
-  Vec3 direction;
-
-  Vec3 at(double t) const { return origin + direction * t; }
-};
 
 /// A point where a line meets a surface.
 struct Hit {
@@ -57,6 +49,11 @@ class Shape {
 
   /// Whether some hit has t_min < t < t_max. The default asks intersect().
   virtual bool occludes(const Ray& ray, double t_min, double t_max) const;
+
+  /// The same for many segments at once: blocked[i] = 1 where occludes(segments.ray(i), 0, t_max),
+  /// bit for bit; where not, blocked[i] is left as it is. The default asks one after the other.
+  virtual void occlude(const SegmentBlock& segments, double t_max,
+                       SegmentBlock::Mask& blocked) const;
 
   /// Whether the surface surely stays out of the open box; false where that is not known. The
   /// default looks at bounds().

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "isolux/core/vectorize.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/tessellation.h"
 
@@ -27,6 +28,25 @@ std::optional<Chord> chord(const Ray& ray, const Vec3& center, double radius) {
   const double half_squared = (radius - missing) * (radius + missing) / dd;
   if (!(half_squared > 0)) return std::nullopt;
   return Chord{middle, std::sqrt(half_squared), nearest};
+}
+
+/// chord() of many lines, and whether one of its ends has 0 < t < t_max.
+ISOLUX_VECTORIZE
+void occlude_by_sphere(const SegmentBlock& segments, const Vec3& center, double radius,
+                       double t_max, SegmentBlock::Mask& blocked) {
+  for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+    const Ray ray = segments.ray(i);
+    const double dd = length_squared(ray.direction);
+    const Vec3 to_origin = ray.origin - center;
+    const double middle = -dot(to_origin, ray.direction) / dd;
+    const double missing = length(to_origin + ray.direction * middle);
+    const double half_squared = (radius - missing) * (radius + missing) / dd;
+    // Not a number where the line misses, so that nothing below holds.
+    const double half = std::sqrt(half_squared);
+    const double enter = middle - half, leave = middle + half;
+    blocked[i] |=
+        (half_squared > 0) & (((enter > 0) & (enter < t_max)) | ((leave > 0) & (leave < t_max)));
+  }
 }
 
 /// The icosahedron of circumradius 1.
@@ -74,6 +94,11 @@ bool Sphere::occludes(const Ray& ray, double t_min, double t_max) const {
   if (!c) return false;
   const double enter = c->middle - c->half, leave = c->middle + c->half;
   return (enter > t_min && enter < t_max) || (leave > t_min && leave < t_max);
+}
+
+void Sphere::occlude(const SegmentBlock& segments, double t_max,
+                     SegmentBlock::Mask& blocked) const {
+  occlude_by_sphere(segments, center_, radius_, t_max, blocked);
 }
 
 bool Sphere::contains(const Vec3& point) const {

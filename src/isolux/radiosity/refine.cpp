@@ -1,6 +1,7 @@
 #include "isolux/radiosity/refine.h"
 
 #include <algorithm>
+#include <array>
 
 #include "isolux/core/parallel.h"
 #include "isolux/discretization/interpolation.h"
@@ -72,11 +73,13 @@ void Refinement::refine_along(const Vec3& origin, std::span<const Vec3> directio
     mesh_rays_.update();
     const auto born = static_cast<TriangleId>(mesh_.triangles().size());
     parallel_for(batch.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      std::array<Ray, kGrain> rays;
       for (std::size_t i = begin; i < end; ++i) {
-        const Ray ray{origin, batch[i]};
-        rays_.all_hits(ray, {}, scene_hits_[i]);
-        mesh_rays_.all_hits(ray, {}, mesh_hits_[i]);
+        rays[i - begin] = {origin, batch[i]};
+        rays_.all_hits(rays[i - begin], {}, scene_hits_[i]);
       }
+      const std::size_t n = end - begin;
+      mesh_rays_.all_hits(std::span(rays).first(n), {}, std::span(mesh_hits_).subspan(begin, n));
     });
     // What earlier rays of the batch have built or removed counts for the later ones.
     for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -146,6 +149,9 @@ void Refinement::refine_triangulation(const MeshHit& mesh_hit, const SurfaceHit&
                                       const Shot* shot) {
   const Triangle& triangle = mesh_.triangle(mesh_hit.triangle);
   if (!triangle.alive || triangle.on_light || triangle.area <= mesh_.rules().min_area) return;
+  // Most triangles are flat: this spares looking at their corners.
+  constexpr double kRounding = 1e-6;
+  if (triangle.flat && dot(triangle.normal, hit.normal) > cos_normal_tolerance_ + kRounding) return;
   const bool bent = std::any_of(
       triangle.vertices.begin(), triangle.vertices.end(),
       [&](VertexId v) { return dot(mesh_.vertex(v).normal, hit.normal) < cos_normal_tolerance_; });

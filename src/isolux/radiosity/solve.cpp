@@ -64,22 +64,19 @@ Shot take_shot(Triangulation& mesh, TriangleId id) {
 
 /// For each vertex V ∉ T: V.ΔB ← V.ρ × T.B × F_{V–T}; V.B ← V.B + V.ΔB. Returns the number of
 /// shadow rays.
-std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, std::span<const VertexId> order,
+std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, SpatialOrder& spatial_order,
                                            const Shot& shot, const RayCaster& rays,
                                            int subdivisions) {
   constexpr std::size_t kGrain = 512;
   const auto corners = mesh.triangle(shot.triangle).vertices;
+  const std::span<const VertexId> order = spatial_order.of(mesh);
   std::atomic<std::uint64_t> ray_count = 0;
   parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     const auto group = order.subspan(begin, end - begin);
-    std::array<Receiver, kGrain> receivers;
+    const auto receivers = spatial_order.receivers().subspan(begin, group.size());
     std::array<double, kGrain> factors;
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const Vertex& vertex = mesh.vertex(group[i]);
-      receivers[i] = {vertex.gather_point, vertex.normal};
-    }
-    ray_count += visible_form_factors(rays, shot.emitter, {receivers.data(), group.size()},
-                                      subdivisions, {factors.data(), group.size()});
+    ray_count += visible_form_factors(rays, shot.emitter, receivers, subdivisions,
+                                      {factors.data(), group.size()});
     for (std::size_t i = 0; i < group.size(); ++i) {
       Vertex& vertex = mesh.vertex(group[i]);
       const bool of_shot = std::find(corners.begin(), corners.end(), group[i]) != corners.end();
@@ -159,7 +156,7 @@ Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Opt
   while (statistics.iterations < options.iterations) {
     const Shot shot = take_shot(mesh, brightest.triangle);
     statistics.shadow_rays +=
-        calculate_vertex_radiosities(mesh, order.of(mesh), shot, rays, options.subdivisions);
+        calculate_vertex_radiosities(mesh, order, shot, rays, options.subdivisions);
     if (options.refine) {
       refinement.refine(shot);
       refinement.split_triangles(shot);

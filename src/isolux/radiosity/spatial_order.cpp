@@ -48,6 +48,10 @@ std::span<const VertexId> SpatialOrder::of(const Triangulation& mesh) {
     for (const Vertex& vertex : vertices) points.push_back(vertex.position);
     order_ = z_order(points);
     sorted_ = order_.size();
+    receivers_.clear();
+  }
+  for (std::size_t i = receivers_.size(); i < order_.size(); ++i) {
+    receivers_.push_back({vertices[order_[i]].gather_point, vertices[order_[i]].normal});
   }
   return order_;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "isolux/discretization/triangulation.h"
+#include "isolux/radiosity/form_factor.h"
 
 namespace isolux {
 
@@ -19,8 +20,12 @@ class SpatialOrder {
   /// time; until then the newborn come last, by birth. Valid until the next call.
   std::span<const VertexId> of(const Triangulation& mesh);
 
+  /// Where the vertices of the last of() gather light, in its order.
+  std::span<const Receiver> receivers() const { return receivers_; }
+
  private:
   std::vector<VertexId> order_;
+  std::vector<Receiver> receivers_;
   std::size_t sorted_ = 0;
 };
 

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "isolux/radiosity/form_factor.h"
-
 namespace isolux {
 namespace {
 
@@ -25,8 +23,10 @@ struct Piece {
 /// One receiver's view of the emitter.
 class View {
  public:
-  View(const RayCaster& rays, const Emitter& emitter, const Receiver& receiver)
-      : rays_(rays), emitter_(emitter), receiver_(receiver) {}
+  /// `blockers`: what may stand between the two.
+  View(const RayCaster& rays, const Emitter& emitter, const Receiver& receiver,
+       const Blockers& blockers)
+      : rays_(rays), emitter_(emitter), receiver_(receiver), blockers_(blockers) {}
 
   /// Form factor to what is seen of `piece`, which is cut in four `probes` times even where its
   /// corners agree.
@@ -81,7 +81,7 @@ class View {
   void look(const std::array<Barycentric, N>& points, std::array<std::uint8_t, N>& visible) {
     std::array<Segment, N> segments;
     for (std::size_t i = 0; i < N; ++i) segments[i] = {start(), lifted(points[i])};
-    rays_.occluded(segments, visible);
+    rays_.occluded(blockers_, segments, visible);
     for (auto& v : visible) v = !v;
     ray_count += N;
   }
@@ -124,7 +124,11 @@ class View {
   const RayCaster& rays_;
   const Emitter& emitter_;
   const Receiver& receiver_;
+  const Blockers& blockers_;
 };
+
+// Receivers that are looked at together.
+constexpr std::size_t kGroup = 32;
 
 constexpr std::array<Barycentric, 3> kCorners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -135,6 +139,51 @@ bool may_see(const Emitter& emitter, const Receiver& receiver, double epsilon) {
     if (dot(corner - receiver.point, receiver.normal) > epsilon) return true;
   }
   return false;
+}
+
+/// visible_form_factors() of a group of neighbours that may see the emitter, by their indices.
+std::uint64_t group_form_factors(const RayCaster& rays, const Emitter& emitter,
+                                 const Bounds& targets, std::span<const Receiver> receivers,
+                                 std::span<const std::uint32_t> group, int subdivisions,
+                                 std::span<double> factors) {
+  Bounds starts;
+  for (std::uint32_t i : group) starts.include(receivers[i].point);
+  // Where nothing stands between them and the emitter, they see it whole.
+  const Blockers blockers = rays.blockers(starts, targets);
+  if (blockers.none()) {
+    form_factors(receivers, group, emitter.corners, factors);
+    return 0;
+  }
+
+  // The others ask; all for one corner together, since such rays run close to one another.
+  const std::size_t n = group.size();
+  std::array<Segment, 3 * kGroup> segments;
+  std::array<std::uint8_t, 3 * kGroup> blocked;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const View view(rays, emitter, receivers[group[k]], blockers);
+      segments[corner * n + k] = {view.start(), view.lifted(kCorners[corner])};
+    }
+  }
+  rays.occluded(blockers, std::span(segments).first(3 * n), blocked);
+  std::uint64_t ray_count = 3 * n;
+  std::array<std::uint32_t, kGroup> open;
+  std::size_t open_count = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!emitter.light && !(blocked[k] | blocked[n + k] | blocked[2 * n + k])) {
+      open[open_count++] = group[k];
+      continue;
+    }
+    View view(rays, emitter, receivers[group[k]], blockers);
+    Piece whole{kCorners, {}};
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      whole.visible[corner] = !blocked[corner * n + k];
+    }
+    factors[group[k]] = view.form_factor_of(whole, emitter.light ? 2 : 0, subdivisions);
+    ray_count += view.ray_count;
+  }
+  form_factors(receivers, std::span(open).first(open_count), emitter.corners, factors);
+  return ray_count;
 }
 
 }  // namespace
@@ -158,62 +207,22 @@ Emitter emitter_of(const Triangulation& mesh, TriangleId id) {
 std::uint64_t visible_form_factors(const RayCaster& rays, const Emitter& emitter,
                                    std::span<const Receiver> receivers, int subdivisions,
                                    std::span<double> factors) {
-  constexpr std::size_t kGroup = 32;
-  thread_local std::vector<std::uint32_t> facing, doubtful;
-  thread_local std::vector<Segment> segments;
-  thread_local std::vector<std::uint8_t> blocked;
-
+  thread_local std::vector<std::uint32_t> facing;
   facing.clear();
   for (std::uint32_t i = 0; i < receivers.size(); ++i) {
     factors[i] = 0;
     if (may_see(emitter, receivers[i], rays.epsilon())) facing.push_back(i);
   }
-  const auto set_whole = [&](std::uint32_t i) {
-    factors[i] = form_factor(receivers[i].point, receivers[i].normal, emitter.corners);
-  };
-
-  // Where nothing stands between a group of neighbours and the emitter, they see it whole.
-  doubtful.clear();
   Bounds targets;
   for (const Vec3& corner : emitter.corners) targets.include(corner);
   const double bulge = emitter.bulge[0] + emitter.bulge[1] + emitter.bulge[2];
   targets.lower -= Vec3{bulge, bulge, bulge};
   targets.upper += Vec3{bulge, bulge, bulge};
+  std::uint64_t ray_count = 0;
   for (std::size_t first = 0; first < facing.size(); first += kGroup) {
     const auto group = std::span(facing).subspan(first, std::min(kGroup, facing.size() - first));
-    Bounds starts;
-    for (std::uint32_t i : group) starts.include(receivers[i].point);
-    if (rays.clear(starts, targets)) {
-      for (std::uint32_t i : group) set_whole(i);
-    } else {
-      doubtful.insert(doubtful.end(), group.begin(), group.end());
-    }
-  }
-
-  // The others ask; all for one corner together, since such rays run close to one another.
-  const std::size_t n = doubtful.size();
-  segments.resize(3 * n);
-  blocked.resize(3 * n);
-  for (std::size_t corner = 0; corner < 3; ++corner) {
-    for (std::size_t k = 0; k < n; ++k) {
-      const View view(rays, emitter, receivers[doubtful[k]]);
-      segments[corner * n + k] = {view.start(), view.lifted(kCorners[corner])};
-    }
-  }
-  rays.occluded(segments, blocked);
-  std::uint64_t ray_count = 3 * n;
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!emitter.light && !(blocked[k] | blocked[n + k] | blocked[2 * n + k])) {
-      set_whole(doubtful[k]);
-      continue;
-    }
-    View view(rays, emitter, receivers[doubtful[k]]);
-    Piece whole{kCorners, {}};
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      whole.visible[corner] = !blocked[corner * n + k];
-    }
-    factors[doubtful[k]] = view.form_factor_of(whole, emitter.light ? 2 : 0, subdivisions);
-    ray_count += view.ray_count;
+    ray_count +=
+        group_form_factors(rays, emitter, targets, receivers, group, subdivisions, factors);
   }
   return ray_count;
 }

@@ -5,15 +5,10 @@
 #include <span>
 
 #include "isolux/discretization/triangulation.h"
+#include "isolux/radiosity/form_factor.h"
 #include "isolux/raycast/ray_caster.h"
 
 namespace isolux {
-
-/// A differential area that receives light.
-struct Receiver {
-  Vec3 point;   ///< on the true surface
-  Vec3 normal;  ///< unit length
-};
 
 /// A triangle that sends out light, seen from its front.
 struct Emitter {

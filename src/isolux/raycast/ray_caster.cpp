@@ -260,9 +260,11 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
   }
 }
 
-bool RayCaster::clear(const Bounds& from, const Bounds& to) const {
-  constexpr std::size_t kMostObjects = 256;
-  if (impl_->primitives.size() > kMostObjects) return false;
+Blockers RayCaster::blockers(const Bounds& from, const Bounds& to) const {
+  constexpr std::size_t kMostObjects = 256, kMostParts = 4;
+  Blockers found;
+  found.many_ = impl_->primitives.size() > kMostObjects;
+  if (found.many_) return found;
   // Room for the hair by which points are lifted off surfaces. It lifts them off the walls of a
   // room into the room, so that these need none.
   const Vec3 hair = Vec3{1, 1, 1} * (2 * epsilon());
@@ -270,12 +272,34 @@ bool RayCaster::clear(const Bounds& from, const Bounds& to) const {
   const Shaft shaft(grown(from), grown(to));
   Bounds both = from;
   both.include(to);
-  for (std::size_t i = 0; i < impl_->bounds.size(); ++i) {
-    if (!shaft.misses(impl_->bounds[i]) && !impl_->scene.objects[i].shape->avoids(both)) {
-      return false;
+  for (std::uint32_t i = 0; i < impl_->bounds.size(); ++i) {
+    const Shape& shape = *impl_->scene.objects[i].shape;
+    if (shaft.misses(impl_->bounds[i]) || shape.avoids(both)) continue;
+    found.many_ = found.count_ == Blockers::kMost || shape.part_count() > kMostParts;
+    if (found.many_) return found;
+    found.objects_[found.count_++] = i;
+  }
+  return found;
+}
+
+void RayCaster::occluded(const Blockers& among, std::span<const Segment> segments,
+                         std::span<std::uint8_t> blocked) const {
+  if (among.many_) return occluded(segments, blocked);
+  constexpr std::size_t kLanes = SegmentBlock::kLanes;
+  for (std::size_t first = 0; first < segments.size(); first += kLanes) {
+    const std::size_t n = std::min(kLanes, segments.size() - first);
+    SegmentBlock block;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      block.set(lane, ray_of(segments[first + std::min(lane, n - 1)]));
+    }
+    SegmentBlock::Mask mask{};
+    for (std::size_t k = 0; k < among.count_; ++k) {
+      impl_->scene.objects[among.objects_[k]].shape->occlude(block, kSegmentEnd, mask);
+    }
+    for (std::size_t lane = 0; lane < n; ++lane) {
+      blocked[first + lane] = static_cast<std::uint8_t>(mask[lane]);
     }
   }
-  return true;
 }
 
 bool RayCaster::buried(const Vec3& point, const Vec3& normal) const {

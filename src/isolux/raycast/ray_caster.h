@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,6 +37,19 @@ struct Interval {
 /// A straight way that light may take between two points.
 struct Segment {
   Vec3 from, to;
+};
+
+/// The objects that may stand between two boxes, or that they are too many to be listed.
+class Blockers {
+ public:
+  bool none() const { return count_ == 0 && !many_; }
+
+ private:
+  friend class RayCaster;
+  static constexpr std::size_t kMost = 8;
+  std::array<std::uint32_t, kMost> objects_{};
+  std::size_t count_ = 0;
+  bool many_ = false;
 };
 
 /// Answers rays against the true geometry of a scene. The scene must outlive it and stay as it is.
@@ -77,9 +91,18 @@ class RayCaster {
   /// blocked[i] = 1 where segments[i] is occluded, else 0.
   void occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const;
 
-  /// Whether surely nothing stands anywhere between the two boxes, so that no segment from one to
-  /// the other is occluded. Cost: the number of objects; false where there are more than 256.
-  bool clear(const Bounds& from, const Bounds& to) const;
+  /// What may stand anywhere between the two boxes. Cost: the number of objects; all of them where
+  /// there are more than 256.
+  Blockers blockers(const Bounds& from, const Bounds& to) const;
+
+  /// Whether surely nothing stands there, so that no segment from one box to the other is
+  /// occluded.
+  bool clear(const Bounds& from, const Bounds& to) const { return blockers(from, to).none(); }
+
+  /// occluded() for segments from one box to another whose blockers are given; much faster where
+  /// these are few.
+  void occluded(const Blockers& among, std::span<const Segment> segments,
+                std::span<std::uint8_t> blocked) const;
 
   /// Whether a point of a surface, a hair along its normal, lies inside another solid (or outside
   /// the room): light never gets there.

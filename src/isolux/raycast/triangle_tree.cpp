@@ -11,7 +11,7 @@ namespace {
 struct Query : RTCIntersectContext {
   const Ray* ray;
   Interval within;
-  std::span<const TriangleCorners> triangles;
+  const TriangleSoup* soup;
   std::vector<TriangleHit>* hits;
 };
 
@@ -36,7 +36,9 @@ void collect(const RTCFilterFunctionNArguments* args) {
   args->valid[0] = 0;
   TriangleHit hit;
   hit.triangle = RTCHitN_primID(args->hit, args->N, 0);
-  if (!intersect_plane(query->triangles[hit.triangle], *query->ray, hit)) return;
+  const auto& [a, b, c] = query->soup->triangles[hit.triangle];
+  const auto& points = query->soup->points;
+  if (!intersect_plane({points[a], points[b], points[c]}, *query->ray, hit)) return;
   if (!(hit.t > query->within.min && hit.t < query->within.max)) return;
   // Single precision may have let the ray in a hair outside the sides.
   double sum = 0;
@@ -55,15 +57,15 @@ bool intersect_triangle(const TriangleCorners& corners, const Ray& ray, Triangle
 
 struct TriangleTree::Impl {
   std::shared_ptr<RTCDeviceTy> device = embree_device();
-  std::vector<TriangleCorners> triangles;
+  TriangleSoup soup;
   RTCScene scene = nullptr;
 
   ~Impl() { rtcReleaseScene(scene); }
 };
 
-TriangleTree::TriangleTree(std::span<const TriangleCorners> triangles)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->triangles.assign(triangles.begin(), triangles.end());
+TriangleTree::TriangleTree(TriangleSoup soup) : impl_(std::make_unique<Impl>()) {
+  impl_->soup = std::move(soup);
+  const auto& [vertices, triangles] = impl_->soup;
   RTCDevice device = impl_->device.get();
   impl_->scene = rtcNewScene(device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -72,16 +74,15 @@ TriangleTree::TriangleTree(std::span<const TriangleCorners> triangles)
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                               3 * triangles.size()));
+                                                               vertices.size()));
     auto* indices = static_cast<unsigned*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(unsigned), triangles.size()));
     if (!points || !indices) throw std::bad_alloc();
-    for (std::size_t i = 0; i < 3 * triangles.size(); ++i) {
-      const Vec3& p = triangles[i / 3][i % 3];
-      for (int axis = 0; axis < 3; ++axis) points[3 * i + axis] = static_cast<float>(p[axis]);
-      indices[i] = static_cast<unsigned>(i);
+    for (const Vec3& p : vertices) {
+      for (int axis = 0; axis < 3; ++axis) *points++ = static_cast<float>(p[axis]);
     }
+    for (const auto& corners : triangles) indices = std::copy_n(corners.begin(), 3, indices);
     rtcSetGeometryIntersectFilterFunction(geometry, collect);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(impl_->scene, geometry, 0);
@@ -99,7 +100,7 @@ void TriangleTree::all_hits(const Ray& ray, Interval within, std::vector<Triangl
   rtcInitIntersectContext(&query);
   query.ray = &ray;
   query.within = within;
-  query.triangles = impl_->triangles;
+  query.soup = &impl_->soup;
   query.hits = &hits;
   RTCRayHit rayhit = embree_ray(ray, within.max);
   rtcIntersect1(impl_->scene, &query, &rayhit);

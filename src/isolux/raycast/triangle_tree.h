@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "isolux/core/vec3.h"
@@ -32,7 +31,7 @@ bool intersect_triangle(const TriangleCorners& corners, const Ray& ray, Triangle
 /// meet both.
 class TriangleTree {
  public:
-  explicit TriangleTree(std::span<const TriangleCorners> triangles);
+  explicit TriangleTree(TriangleSoup soup);
   ~TriangleTree();
   TriangleTree(TriangleTree&&) noexcept;
   TriangleTree& operator=(TriangleTree&&) noexcept;
