@@ -8,6 +8,7 @@
 #include "isolux/core/error.h"
 #include "isolux/core/parallel.h"
 #include "isolux/discretization/cover.h"
+#include "isolux/discretization/split_points.h"
 #include "isolux/radiosity/direct_light.h"
 #include "isolux/radiosity/energy.h"
 #include "isolux/radiosity/hemisphere_gather.h"
@@ -52,27 +53,6 @@ constexpr int kCoarsestGrid = 8, kFinestGrid = 256;
 
 // 95 of 100 errors are smaller than so many standard deviations.
 constexpr double kConfidence = 2;
-
-/// The point of the true surface over the middle of edge ab; nothing where none is close, or the
-/// nearest lies inside a solid or reflects otherwise.
-std::optional<SurfacePoint> middle_of_edge(const Triangulation& mesh, const RayCaster& rays,
-                                           VertexId a, VertexId b) {
-  constexpr double kReach = 0.25;  // of the edge's length: more than surfaces within α_n rise
-  const Vertex &p = mesh.vertex(a), &q = mesh.vertex(b);
-  const Vec3 normal = normalized(p.normal + q.normal);
-  const double reach = kReach * distance(p.position, q.position) + 16 * rays.epsilon();
-  thread_local std::vector<SurfaceHit> hits;
-  rays.all_hits({(p.position + q.position) / 2 + normal * reach, -normal}, {0, 2 * reach}, hits);
-  const SurfaceHit* nearest = nullptr;
-  for (const SurfaceHit& hit : hits) {
-    if (dot(hit.normal, normal) < 0.5) continue;
-    if (!nearest || std::abs(hit.t - reach) < std::abs(nearest->t - reach)) nearest = &hit;
-  }
-  if (!nearest || rays.buried(nearest->point, nearest->normal)) return std::nullopt;
-  const Rgb reflectance = rays.scene().material_of(nearest->surface.object).reflectance;
-  if (reflectance != p.reflectance) return std::nullopt;
-  return SurfacePoint{nearest->point, nearest->normal, nearest->surface, reflectance};
-}
 
 /// An edge of living triangles, a < b.
 struct Edge {
@@ -239,7 +219,7 @@ class Gathering {
     parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Edge& edge = edges[chosen[i]];
-        middles[chosen[i]].point = middle_of_edge(mesh_, rays_, edge.a, edge.b);
+        middles[chosen[i]].point = point_over_edge(mesh_, rays_, edge.a, edge.b);
       }
     });
     std::vector<Receiver> receivers;
@@ -652,14 +632,17 @@ class Gathering {
     }
   }
 
+  /// e of E_i in the middle of an edge: as it was found, or as a rule.
+  double indirect_error(const Edge& e) const {
+    const auto known = state_.indirect_error.find(e.key());
+    const double bend = known != state_.indirect_error.end() ? known->second : usual_bend(e.a, e.b);
+    return bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2;
+  }
+
   /// What interpolation of E_i costs, lx².
   double indirect_mean_square() const {
     double sum = 0;
-    for (const Edge& e : living_edges(mesh_)) {
-      const auto known = state_.indirect_error.find(e.key());
-      const double bend = known != state_.indirect_error.end() ? known->second : usual_bend(e.a, e.b);
-      sum += weight(e, bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2);
-    }
+    for (const Edge& e : living_edges(mesh_)) sum += weight(e, indirect_error(e));
     return sum / area();
   }
 
@@ -699,13 +682,28 @@ class Gathering {
     state_.statistics.error = (std::hypot(interpolation, state_.deviation) + state_.statistics.emitter_error) / mean_irradiance();
   }
 
+  /// What interpolation costs around each vertex, on average over its edges, lx.
+  std::vector<double> interpolation_errors() const {
+    std::vector<double> sum(state_.light.size()), weight(state_.light.size());
+    for (const Edge& e : living_edges(mesh_)) {
+      const auto at = state_.direct_error.find(e.key());
+      const double error = (at == state_.direct_error.end() ? 0 : std::abs(at->second)) + indirect_error(e);
+      for (const VertexId v : {e.a, e.b}) sum[v] += error * e.area, weight[v] += e.area;
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+      if (weight[v] > 0) sum[v] /= weight[v];
+    }
+    return sum;
+  }
+
   /// What goes with the solution.
   void finish() {
+    const std::vector<double> interpolation = interpolation_errors();
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       Vertex& vertex = mesh_.vertex(v);
       vertex.irradiance = state_.irradiance[v];
       vertex.error = kConfidence * std::sqrt(variance_of(v) + square(state_.light[v].bend)) +
-                     state_.statistics.emitter_error;
+                     interpolation[v] + state_.statistics.emitter_error;
     }
     for (Triangle& triangle : mesh_.triangles()) {
       if (!triangle.alive) continue;
@@ -762,8 +760,11 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   constexpr std::size_t kGrain = 64;
   const DirectLight lights(rays);
   const HemisphereGather hemisphere(rays, mesh, lights.separate());
-  std::vector<Rgb> irradiance;
-  for (const Vertex& vertex : mesh.vertices()) irradiance.push_back(vertex.irradiance);
+  std::vector<Rgb> irradiance, errors;
+  for (const Vertex& vertex : mesh.vertices()) {
+    irradiance.push_back(vertex.irradiance);
+    errors.push_back(gray(vertex.error));
+  }
   std::vector<Rgb> direct(receivers.size());
   std::vector<double> deviation(receivers.size());
   lights.irradiance(receivers, direct, deviation);
@@ -776,8 +777,9 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
       hemisphere.trace(receivers[i], grid, seed, i, row);
       const Gathered indirect = hemisphere.gather_with_error(row, irradiance);
       result[i].irradiance = direct[i] + indirect.irradiance;
-      result[i].error =
-          kConfidence * std::hypot(deviation[i], indirect.error) + solved.emitter_error;
+      const double emitters = luminance(hemisphere.reflected(row, errors));
+      result[i].error = std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), emitters) +
+                        solved.emitter_error;
     }
   });
   return result;

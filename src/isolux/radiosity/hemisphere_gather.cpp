@@ -131,6 +131,15 @@ Rgb HemisphereGather::radiosity(const Landing& landing, std::span<const Rgb> irr
   return surface.emission + surface.reflectance * received;
 }
 
+Rgb HemisphereGather::reflected(std::span<const Landing> row,
+                                std::span<const Rgb> irradiance) const {
+  Rgb sum;
+  for (const Landing& landing : row) {
+    sum += radiosity(landing, irradiance) - surfaces_[landing.surface].emission;
+  }
+  return sum / static_cast<double>(row.size());
+}
+
 double HemisphereGather::escaped(std::span<const Landing> row) const {
   const auto out = std::count_if(row.begin(), row.end(), [&](const Landing& landing) {
     return landing.surface == surfaces_.size() - 1;

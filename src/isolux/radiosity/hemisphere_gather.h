@@ -58,6 +58,9 @@ class HemisphereGather {
                              std::span<const std::uint32_t> ids, int grid,
                              std::uint64_t seed) const;
 
+  /// The part of gather() that is reflected, without what the surfaces emit by themselves.
+  Rgb reflected(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
+
   /// The part of the row's rays that leave the scene.
   double escaped(std::span<const Landing> row) const;
 
