@@ -238,7 +238,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
   }
 }
 
-/// Moves the point before a corner where it came too close to it.
+/// Moves the point before the chain's last corner where it came too close to that, or drops it.
 void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
   const std::size_t n = chain.size();
   if (n < 3 || !chain[n - 1].corner || chain[n - 2].corner) return;
@@ -248,11 +248,9 @@ void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
   if (left > 0.6 * chain[n - 2].size) return;
   const Vec3 way = corner - before.point.position;
   const double half = 0.5 * length(way);
-  if (half > 0.55 * spacing_ || half < 0.6 * chain[n - 2].size) {
-    if (half < 0.6 * chain[n - 2].size) chain.erase(chain.end() - 2);
-    if (half < 0.6 * chain[n - 1].size) return;
-  }
-  if (auto middle = next_on_crease(before, tangential(way, before.point.normal), half)) {
+  if (half < 0.6 * chain[n - 2].size) {
+    chain.erase(chain.end() - 2);
+  } else if (auto middle = next_on_crease(before, tangential(way, before.point.normal), half)) {
     middle->outward = chain[n - 2].outward;
     chain[n - 2] = *middle;
   }
@@ -347,9 +345,12 @@ void CoverPoints::trace(const CreaseSeed& seed) {
     bool unused = false;
     follow(start, -left, back, unused);
   }
-  even_out(chain), even_out(back);
   std::vector<CreasePoint> whole(back.rbegin(), back.rend() - 1);
   whole.insert(whole.end(), chain.begin(), chain.end());
+  for (int end = 0; end < 2; ++end) {
+    even_out(whole);
+    std::reverse(whole.begin(), whole.end());
+  }
   look_across(start);
   commit(whole, closed);
 }
