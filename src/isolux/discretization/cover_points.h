@@ -80,6 +80,8 @@ class CoverPoints {
                                     const CreasePoint& b, double step) const;
   void follow(const CreasePoint& from, const Vec3& along, std::vector<CreasePoint>& chain,
               bool& closed);
+  std::optional<CreasePoint> corner_ahead(const CreasePoint& from, const Vec3& along, double step,
+                                          double reached) const;
   static bool met(const std::vector<CreasePoint>& chain, const CreasePoint& next, double step);
   void even_out(std::vector<CreasePoint>& chain) const;
   void commit(const std::vector<CreasePoint>& chain, bool closed);

@@ -120,10 +120,37 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a
     if (walk_.step(*inside, inside->position + ahead * (2 * depth))) continue;
     const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(a.size));
     if (std::abs(rim.distance - depth) > 0.02 * step) continue;
-    CreasePoint found{rim.point, ahead * std::max(0.1, dot(outward, a.outward)), a.size, true};
-    return found;
+    const double slant = std::max(0.1, dot(outward, a.outward));
+    return CreasePoint{rim.point, ahead * slant, a.size, true, b.point, b.outward};
   }
   return std::nullopt;
+}
+
+/// The corner that ends a crease after at most `step`: where something stands in the way, or
+/// back from beyond, where the crease turns away.
+std::optional<CoverPoints::CreasePoint> CoverPoints::corner_ahead(const CreasePoint& from,
+                                                                  const Vec3& along,
+                                                                  double step,
+                                                                  double reached) const {
+  const double aside = kAside * std::max(reached, 0.1 * step);
+  const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
+  if (!inside) return std::nullopt;
+  const auto meet = [&](const ZonePoint& start, const Vec3& direction,
+                        double length) -> std::optional<CreasePoint> {
+    if (walk_.step(start, start.position + direction * length)) return std::nullopt;
+    const Rim rim = walk_.rim(start, direction, 0, length, fineness(from.size));
+    const auto outward = outward_at(rim.point, direction, from.size);
+    if (!outward) return std::nullopt;
+    return corner(from, along, {rim.point, *outward, from.size}, step);
+  };
+  const Vec3 ahead = tangential(along, inside->normal);
+  if (auto found = meet(*inside, ahead, 1.5 * step)) return found;
+  const auto past = walk_.step(*inside, inside->position + ahead * (reached + 0.3 * step));
+  if (!past) return std::nullopt;
+  const Vec3 across = tangential(from.outward, past->normal);
+  const auto out = walk_.step(*past, past->position + across * (2 * aside));
+  if (!out) return std::nullopt;
+  return meet(*out, -tangential(along, out->normal), step);
 }
 
 /// Whether the point lies on the chain already, its last points left out.
@@ -157,13 +184,10 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       const Vec3 left = left_of(p.point.normal, p.outward);
       return dot(left, along) > 0 ? left : -left;
     };
-    const auto go_to_corner = [&](const CreasePoint& other, double step) {
-      const auto meeting = corner(from, along, other, step);
-      if (!meeting) return false;
-      chain.push_back(*meeting);
-      chain.back().turn_off = other.outward;
-      chain.back().turn_off_from = other.point;
-      return true;
+    const auto go_to_corner = [&](const CreasePoint& other, double length) {
+      const auto meeting = corner(from, along, other, length);
+      if (meeting) chain.push_back(*meeting);
+      return meeting.has_value();
     };
 
     double step = from.size;
@@ -180,35 +204,24 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
           far = middle;
         }
       }
-      const double aside = kAside * std::max(near, 0.1 * step);
-      // Ahead, where something stands in the way; or back from beyond, where the crease turns away.
-      bool done = false;
-      const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
-      if (inside) {
-        const Vec3 ahead = tangential(along, inside->normal);
-        if (!walk_.step(*inside, inside->position + ahead * (1.5 * step))) {
-          const Rim rim = walk_.rim(*inside, ahead, 0, 1.5 * step, fineness(from.size));
-          const auto outward = outward_at(rim.point, ahead, from.size);
-          if (outward) done = go_to_corner({rim.point, *outward, from.size}, step);
-        }
-        if (!done) {
-          const auto past = walk_.step(*inside, inside->position + ahead * (far + 0.3 * step));
-          const auto out = past ? walk_.step(*past, past->position +
-                                                        tangential(from.outward, past->normal) *
-                                                            (2 * aside))
-                                : std::nullopt;
-          if (out) {
-            const Vec3 back = -tangential(along, out->normal);
-            if (!walk_.step(*out, out->position + back * step)) {
-              const Rim rim = walk_.rim(*out, back, 0, step, fineness(from.size));
-              const auto outward = outward_at(rim.point, back, from.size);
-              if (outward) done = go_to_corner({rim.point, *outward, from.size}, step);
-            }
-          }
+      // A round crease turned away: shorter steps follow it.
+      if (near > least) {
+        next = next_on_crease(from, along, 0.7 * near);
+        CreasePoint there = next.value_or(from);
+        if (next && turned(there) > kCreaseTurn) {
+          step = 0.7 * near;
+        } else {
+          next.reset();
         }
       }
-      if (!done && last && near > 0.2 * step) chain.push_back(*last);
-      return;
+      if (!next) {
+        if (const auto meeting = corner_ahead(from, along, step, near)) {
+          chain.push_back(*meeting);
+        } else if (last && near > 0.2 * step) {
+          chain.push_back(*last);
+        }
+        return;
+      }
     }
     double turn = turned(*next);
     if (turn > 1.1 * kCreaseTurn) {
