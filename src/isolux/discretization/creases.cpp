@@ -11,7 +11,7 @@ constexpr double kInsetEpsilons = 10;
 constexpr double kCreaseTurn = 0.2;
 // A crease is followed at this many steps inside it.
 constexpr double kAside = 0.25;
-// Points on a crease are no closer than this part of where it was first met.
+// Points on a crease are no closer than this part of the largest size on their object.
 constexpr double kLeastStep = 0.02;
 // Corners this close together, in sizes, are one, where they point the same way.
 constexpr double kSame = 0.05;
@@ -82,7 +82,8 @@ double CoverPoints::sized(const CreasePoint& crease, double limit) const {
   const auto inside =
       walk_.over(crease.point, crease.point.position - crease.outward * (0.02 * limit));
   if (!inside) return limit;
-  return graded(*inside, look_around(*inside, tangential(crease.outward, inside->normal), limit).size);
+  return graded(*inside,
+                look_around(*inside, tangential(crease.outward, inside->normal), limit).size);
 }
 
 /// The point of the crease a step further on; nothing where it turns away, or something stands in
@@ -93,7 +94,8 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::next_on_crease(const Crease
   const double aside = kAside * step;
   const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
   if (!inside) return std::nullopt;
-  const auto ahead = walk_.step(*inside, inside->position + tangential(along, inside->normal) * step);
+  const auto ahead =
+      walk_.step(*inside, inside->position + tangential(along, inside->normal) * step);
   if (!ahead) return std::nullopt;
   const Vec3 outward = tangential(from.outward, ahead->normal);
   if (walk_.step(*ahead, ahead->position + outward * (2.2 * aside))) return std::nullopt;
@@ -129,8 +131,7 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a
 /// The corner that ends a crease after at most `step`: where something stands in the way, or
 /// back from beyond, where the crease turns away.
 std::optional<CoverPoints::CreasePoint> CoverPoints::corner_ahead(const CreasePoint& from,
-                                                                  const Vec3& along,
-                                                                  double step,
+                                                                  const Vec3& along, double step,
                                                                   double reached) const {
   const double aside = kAside * std::max(reached, 0.1 * step);
   const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
@@ -170,7 +171,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
                          std::vector<CreasePoint>& chain, bool& closed) {
   CreasePoint from = start;
   Vec3 along = direction;
-  const double least = kLeastStep * start.size;
+  const double least = kLeastStep * largest_on(start.point);
   for (;;) {
     from.size = std::max(least, sized(from, std::min(spacing_, 1.5 * from.size)));
     const auto turned = [&](CreasePoint& next) -> double {
@@ -285,7 +286,8 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       const CoverPoint& q = points_[id];
       if (q.on_crease() && distance(q.position, crease.point.position) < kSame * crease.size &&
           dot(q.normal, crease.point.normal) > walk_.cos_normal_tolerance() &&
-          dot(q.inward, normalized(crease.outward)) < -0.5 && walk_.over(q, crease.point.position)) {
+          dot(q.inward, normalized(crease.outward)) < -0.5 &&
+          walk_.over(q, crease.point.position)) {
         same = id;
       }
     }
@@ -294,8 +296,8 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       const double inset = std::max(kInset * crease.size, kInsetEpsilons * walk_.rays().epsilon());
       std::optional<ZonePoint> inside;
       for (double depth = inset / shallow; !inside && depth < 40 * inset; depth *= 2) {
-        inside = walk_.over(crease.point,
-                            crease.point.position - normalized(crease.outward) * depth);
+        inside =
+            walk_.over(crease.point, crease.point.position - normalized(crease.outward) * depth);
       }
       if (!inside) {
         previous = kNone;
@@ -348,7 +350,7 @@ void CoverPoints::trace(const CreaseSeed& seed) {
   const auto outward = outward_at(rim.point, reached, size);
   if (!outward || known(rim.point, *outward, size)) return;
   CreasePoint start{rim.point, *outward, size};
-  start.size = sized(start, size);
+  start.size = std::max(sized(start, size), kLeastStep * largest_on(rim.point));
 
   std::vector<CreasePoint> chain{start}, back{start};
   bool closed = false;
