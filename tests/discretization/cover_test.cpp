@@ -149,6 +149,16 @@ TEST_P(Cover, StaysWholeWhereEdgesAreSplit) {
 INSTANTIATE_TEST_SUITE_P(Zoo, Cover, testing::ValuesIn(kCases),
                          [](const auto& test) { return test.param.name; });
 
+TEST(CoverTest, CarvedDieRingAndTumbler) {
+  const Scene scene = load_scene(source_dir() / "examples/csg/die.yaml");
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.05);
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  const Coverage coverage = coverage_of(mesh, rays, 100'000, 7);
+  EXPECT_GT(coverage.covered, 0.995 * coverage.area);
+  EXPECT_LT(thin_part(mesh), 0.05);
+}
+
 TEST(CoverTest, LightsEmitAndOthersDoNot) {
   const Scene scene = paper_room();
   const RayCaster rays(scene);
