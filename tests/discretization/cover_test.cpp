@@ -18,8 +18,8 @@ struct Case {
   std::string name;
   std::string objects;
   double spacing;
-  double area;      // m² that light can reach, of the true surfaces
-  double slack;     // of the mesh's area: facets of curved surfaces lie inside them
+  double area;   // m² that light can reach, of the true surfaces
+  double slack;  // of the mesh's area: facets of curved surfaces lie inside them
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -31,7 +31,7 @@ const Case kCases[] = {
     {"torus",
      "[{shape: {torus: {center: [0, 0, 0], axis: z, major_radius: 1, minor_radius: 0.4}}, "
      "material: m}]",
-     0.2, 4 * kPi * kPi * 0.4, 0.03},
+     0.2, 4 * kPi* kPi * 0.4, 0.03},
     {"box_on_floor",
      "[{shape: {parallelogram: {corner: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0]}}, material: m, "
      "sides: front}, {shape: {box: {lower: [0.3, 0.35, 0], upper: [0.6, 0.5, 0.4]}}, material: m}]",
@@ -148,6 +148,16 @@ TEST_P(Cover, StaysWholeWhereEdgesAreSplit) {
 
 INSTANTIATE_TEST_SUITE_P(Zoo, Cover, testing::ValuesIn(kCases),
                          [](const auto& test) { return test.param.name; });
+
+TEST(CoverTest, CarvedDieRingAndTumbler) {
+  const Scene scene = load_scene(source_dir() / "examples/csg/die.yaml");
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.05);
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  const Coverage coverage = coverage_of(mesh, rays, 100'000, 7);
+  EXPECT_GT(coverage.covered, 0.995 * coverage.area);
+  EXPECT_LT(thin_part(mesh), 0.05);
+}
 
 TEST(CoverTest, LightsEmitAndOthersDoNot) {
   const Scene scene = paper_room();

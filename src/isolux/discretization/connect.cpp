@@ -71,8 +71,8 @@ struct Candidate {
   Flat at;
 };
 
-std::vector<StarTriangle> star_of(const CoverPoints& all, std::uint32_t id,
-                                  const SurfaceWalk& walk, double longest) {
+std::vector<StarTriangle> star_of(const CoverPoints& all, std::uint32_t id, const SurfaceWalk& walk,
+                                  double longest) {
   const CoverPoint& p = all.points()[id];
   const Frame frame(p.normal);
   thread_local std::vector<std::uint32_t> ids;
@@ -145,9 +145,8 @@ std::vector<StarTriangle> star_triangles(const CoverPoints& points, const Surfac
 
   std::vector<StarTriangle> all;
   for (const auto& star : stars) all.insert(all.end(), star.begin(), star.end());
-  std::sort(all.begin(), all.end(), [](const StarTriangle& a, const StarTriangle& b) {
-    return a.corners < b.corners;
-  });
+  std::sort(all.begin(), all.end(),
+            [](const StarTriangle& a, const StarTriangle& b) { return a.corners < b.corners; });
   std::vector<StarTriangle> voted;
   for (const StarTriangle& t : all) {
     if (!voted.empty() && voted.back().corners == t.corners) {
@@ -156,9 +155,8 @@ std::vector<StarTriangle> star_triangles(const CoverPoints& points, const Surfac
       voted.push_back(t);
     }
   }
-  std::stable_sort(voted.begin(), voted.end(), [](const StarTriangle& a, const StarTriangle& b) {
-    return a.votes > b.votes;
-  });
+  std::stable_sort(voted.begin(), voted.end(),
+                   [](const StarTriangle& a, const StarTriangle& b) { return a.votes > b.votes; });
   return voted;
 }
 

@@ -6,8 +6,8 @@ namespace isolux {
 namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
-// Neighbours are this part of the radius of curvature times α_n apart, so that Delaunay edges, which
-// are up to 1.7 times as long, keep within α_n.
+// Neighbours are this part of the radius of curvature times α_n apart, so that Delaunay edges,
+// which are up to 1.7 times as long, keep within α_n.
 constexpr double kTurnPerSize = 0.55;
 // Size in a strip, in widths of it; not less than this part of the spacing.
 constexpr double kStripWidths = 2;
@@ -79,8 +79,8 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
     };
     const double width = ends[k] + ends[k + kDirections / 2];
     if (std::isfinite(width) && least(k) && least(k + kDirections / 2)) {
-      around.size = std::min(around.size,
-                             std::max(kStripWidths * width, std::min(limit, kLeastStrip * spacing_)));
+      around.size = std::min(
+          around.size, std::max(kStripWidths * width, std::min(limit, kLeastStrip * spacing_)));
     }
   }
   return around;

@@ -76,10 +76,12 @@ class CoverPoints {
   std::optional<Vec3> outward_at(const ZonePoint& rim, const Vec3& direction, double size) const;
   std::optional<CreasePoint> next_on_crease(const CreasePoint& from, const Vec3& along,
                                             double step) const;
-  std::optional<CreasePoint> corner(const CreasePoint& a, const Vec3& along,
-                                    const CreasePoint& b, double step) const;
+  std::optional<CreasePoint> corner(const CreasePoint& a, const Vec3& along, const CreasePoint& b,
+                                    double step) const;
   void follow(const CreasePoint& from, const Vec3& along, std::vector<CreasePoint>& chain,
               bool& closed);
+  std::optional<CreasePoint> corner_ahead(const CreasePoint& from, const Vec3& along, double step,
+                                          double reached) const;
   static bool met(const std::vector<CreasePoint>& chain, const CreasePoint& next, double step);
   void even_out(std::vector<CreasePoint>& chain) const;
   void commit(const std::vector<CreasePoint>& chain, bool closed);

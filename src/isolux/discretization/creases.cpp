@@ -11,7 +11,7 @@ constexpr double kInsetEpsilons = 10;
 constexpr double kCreaseTurn = 0.2;
 // A crease is followed at this many steps inside it.
 constexpr double kAside = 0.25;
-// Points on a crease are no closer than this part of where it was first met.
+// Points on a crease are no closer than this part of the largest size on their object.
 constexpr double kLeastStep = 0.02;
 // Corners this close together, in sizes, are one, where they point the same way.
 constexpr double kSame = 0.05;
@@ -82,7 +82,8 @@ double CoverPoints::sized(const CreasePoint& crease, double limit) const {
   const auto inside =
       walk_.over(crease.point, crease.point.position - crease.outward * (0.02 * limit));
   if (!inside) return limit;
-  return graded(*inside, look_around(*inside, tangential(crease.outward, inside->normal), limit).size);
+  return graded(*inside,
+                look_around(*inside, tangential(crease.outward, inside->normal), limit).size);
 }
 
 /// The point of the crease a step further on; nothing where it turns away, or something stands in
@@ -93,7 +94,8 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::next_on_crease(const Crease
   const double aside = kAside * step;
   const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
   if (!inside) return std::nullopt;
-  const auto ahead = walk_.step(*inside, inside->position + tangential(along, inside->normal) * step);
+  const auto ahead =
+      walk_.step(*inside, inside->position + tangential(along, inside->normal) * step);
   if (!ahead) return std::nullopt;
   const Vec3 outward = tangential(from.outward, ahead->normal);
   if (walk_.step(*ahead, ahead->position + outward * (2.2 * aside))) return std::nullopt;
@@ -120,10 +122,36 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a
     if (walk_.step(*inside, inside->position + ahead * (2 * depth))) continue;
     const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(a.size));
     if (std::abs(rim.distance - depth) > 0.02 * step) continue;
-    CreasePoint found{rim.point, ahead * std::max(0.1, dot(outward, a.outward)), a.size, true};
-    return found;
+    const double slant = std::max(0.1, dot(outward, a.outward));
+    return CreasePoint{rim.point, ahead * slant, a.size, true, b.point, b.outward};
   }
   return std::nullopt;
+}
+
+/// The corner that ends a crease after at most `step`: where something stands in the way, or
+/// back from beyond, where the crease turns away.
+std::optional<CoverPoints::CreasePoint> CoverPoints::corner_ahead(const CreasePoint& from,
+                                                                  const Vec3& along, double step,
+                                                                  double reached) const {
+  const double aside = kAside * std::max(reached, 0.1 * step);
+  const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
+  if (!inside) return std::nullopt;
+  const auto meet = [&](const ZonePoint& start, const Vec3& direction,
+                        double length) -> std::optional<CreasePoint> {
+    if (walk_.step(start, start.position + direction * length)) return std::nullopt;
+    const Rim rim = walk_.rim(start, direction, 0, length, fineness(from.size));
+    const auto outward = outward_at(rim.point, direction, from.size);
+    if (!outward) return std::nullopt;
+    return corner(from, along, {rim.point, *outward, from.size}, step);
+  };
+  const Vec3 ahead = tangential(along, inside->normal);
+  if (auto found = meet(*inside, ahead, 1.5 * step)) return found;
+  const auto past = walk_.step(*inside, inside->position + ahead * (reached + 0.3 * step));
+  if (!past) return std::nullopt;
+  const Vec3 across = tangential(from.outward, past->normal);
+  const auto out = walk_.step(*past, past->position + across * (2 * aside));
+  if (!out) return std::nullopt;
+  return meet(*out, -tangential(along, out->normal), step);
 }
 
 /// Whether the point lies on the chain already, its last points left out.
@@ -143,7 +171,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
                          std::vector<CreasePoint>& chain, bool& closed) {
   CreasePoint from = start;
   Vec3 along = direction;
-  const double least = kLeastStep * start.size;
+  const double least = kLeastStep * largest_on(start.point);
   for (;;) {
     from.size = std::max(least, sized(from, std::min(spacing_, 1.5 * from.size)));
     const auto turned = [&](CreasePoint& next) -> double {
@@ -157,13 +185,10 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       const Vec3 left = left_of(p.point.normal, p.outward);
       return dot(left, along) > 0 ? left : -left;
     };
-    const auto go_to_corner = [&](const CreasePoint& other, double step) {
-      const auto meeting = corner(from, along, other, step);
-      if (!meeting) return false;
-      chain.push_back(*meeting);
-      chain.back().turn_off = other.outward;
-      chain.back().turn_off_from = other.point;
-      return true;
+    const auto go_to_corner = [&](const CreasePoint& other, double length) {
+      const auto meeting = corner(from, along, other, length);
+      if (meeting) chain.push_back(*meeting);
+      return meeting.has_value();
     };
 
     double step = from.size;
@@ -180,35 +205,24 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
           far = middle;
         }
       }
-      const double aside = kAside * std::max(near, 0.1 * step);
-      // Ahead, where something stands in the way; or back from beyond, where the crease turns away.
-      bool done = false;
-      const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
-      if (inside) {
-        const Vec3 ahead = tangential(along, inside->normal);
-        if (!walk_.step(*inside, inside->position + ahead * (1.5 * step))) {
-          const Rim rim = walk_.rim(*inside, ahead, 0, 1.5 * step, fineness(from.size));
-          const auto outward = outward_at(rim.point, ahead, from.size);
-          if (outward) done = go_to_corner({rim.point, *outward, from.size}, step);
-        }
-        if (!done) {
-          const auto past = walk_.step(*inside, inside->position + ahead * (far + 0.3 * step));
-          const auto out = past ? walk_.step(*past, past->position +
-                                                        tangential(from.outward, past->normal) *
-                                                            (2 * aside))
-                                : std::nullopt;
-          if (out) {
-            const Vec3 back = -tangential(along, out->normal);
-            if (!walk_.step(*out, out->position + back * step)) {
-              const Rim rim = walk_.rim(*out, back, 0, step, fineness(from.size));
-              const auto outward = outward_at(rim.point, back, from.size);
-              if (outward) done = go_to_corner({rim.point, *outward, from.size}, step);
-            }
-          }
+      // A round crease turned away: shorter steps follow it.
+      if (near > least) {
+        next = next_on_crease(from, along, 0.7 * near);
+        CreasePoint there = next.value_or(from);
+        if (next && turned(there) > kCreaseTurn) {
+          step = 0.7 * near;
+        } else {
+          next.reset();
         }
       }
-      if (!done && last && near > 0.2 * step) chain.push_back(*last);
-      return;
+      if (!next) {
+        if (const auto meeting = corner_ahead(from, along, step, near)) {
+          chain.push_back(*meeting);
+        } else if (last && near > 0.2 * step) {
+          chain.push_back(*last);
+        }
+        return;
+      }
     }
     double turn = turned(*next);
     if (turn > 1.1 * kCreaseTurn) {
@@ -238,7 +252,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
   }
 }
 
-/// Moves the point before a corner where it came too close to it.
+/// Moves the point before the chain's last corner where it came too close to that, or drops it.
 void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
   const std::size_t n = chain.size();
   if (n < 3 || !chain[n - 1].corner || chain[n - 2].corner) return;
@@ -248,11 +262,9 @@ void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
   if (left > 0.6 * chain[n - 2].size) return;
   const Vec3 way = corner - before.point.position;
   const double half = 0.5 * length(way);
-  if (half > 0.55 * spacing_ || half < 0.6 * chain[n - 2].size) {
-    if (half < 0.6 * chain[n - 2].size) chain.erase(chain.end() - 2);
-    if (half < 0.6 * chain[n - 1].size) return;
-  }
-  if (auto middle = next_on_crease(before, tangential(way, before.point.normal), half)) {
+  if (half < 0.6 * chain[n - 2].size) {
+    chain.erase(chain.end() - 2);
+  } else if (auto middle = next_on_crease(before, tangential(way, before.point.normal), half)) {
     middle->outward = chain[n - 2].outward;
     chain[n - 2] = *middle;
   }
@@ -274,7 +286,8 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       const CoverPoint& q = points_[id];
       if (q.on_crease() && distance(q.position, crease.point.position) < kSame * crease.size &&
           dot(q.normal, crease.point.normal) > walk_.cos_normal_tolerance() &&
-          dot(q.inward, normalized(crease.outward)) < -0.5 && walk_.over(q, crease.point.position)) {
+          dot(q.inward, normalized(crease.outward)) < -0.5 &&
+          walk_.over(q, crease.point.position)) {
         same = id;
       }
     }
@@ -283,8 +296,8 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       const double inset = std::max(kInset * crease.size, kInsetEpsilons * walk_.rays().epsilon());
       std::optional<ZonePoint> inside;
       for (double depth = inset / shallow; !inside && depth < 40 * inset; depth *= 2) {
-        inside = walk_.over(crease.point,
-                            crease.point.position - normalized(crease.outward) * depth);
+        inside =
+            walk_.over(crease.point, crease.point.position - normalized(crease.outward) * depth);
       }
       if (!inside) {
         previous = kNone;
@@ -337,7 +350,7 @@ void CoverPoints::trace(const CreaseSeed& seed) {
   const auto outward = outward_at(rim.point, reached, size);
   if (!outward || known(rim.point, *outward, size)) return;
   CreasePoint start{rim.point, *outward, size};
-  start.size = sized(start, size);
+  start.size = std::max(sized(start, size), kLeastStep * largest_on(rim.point));
 
   std::vector<CreasePoint> chain{start}, back{start};
   bool closed = false;
@@ -347,9 +360,12 @@ void CoverPoints::trace(const CreaseSeed& seed) {
     bool unused = false;
     follow(start, -left, back, unused);
   }
-  even_out(chain), even_out(back);
   std::vector<CreasePoint> whole(back.rbegin(), back.rend() - 1);
   whole.insert(whole.end(), chain.begin(), chain.end());
+  for (int end = 0; end < 2; ++end) {
+    even_out(whole);
+    std::reverse(whole.begin(), whole.end());
+  }
   look_across(start);
   commit(whole, closed);
 }

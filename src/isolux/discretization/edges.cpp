@@ -40,8 +40,8 @@ bool Triangulation::may_be_triangle(VertexId a, VertexId b, VertexId c) const {
   constexpr double kLeastArea = 1e-7;
   const Vec3 &pa = vertices_[a].position, &pb = vertices_[b].position, &pc = vertices_[c].position;
   const Vec3 normal = cross(pb - pa, pc - pa);
-  const double longest = std::max(
-      {length_squared(pb - pa), length_squared(pc - pb), length_squared(pa - pc)});
+  const double longest =
+      std::max({length_squared(pb - pa), length_squared(pc - pb), length_squared(pa - pc)});
   const double twice_area = length(normal);
   if (!(twice_area > kLeastArea * longest) || longest > rules_.max_edge * rules_.max_edge) {
     return false;

@@ -18,9 +18,9 @@ struct Rim {
   double distance = 0;  ///< how far the walk got, in the tangent plane it began in, m
 };
 
-/// Walks along the scene's surfaces by rays alone. A surface runs on from one point to another where
-/// a short ray finds it there, of the same zone and its normal within α_n, not buried in a solid,
-/// and nothing stands between. It ends at a *crease*: an edge, a wall, the foot of another
+/// Walks along the scene's surfaces by rays alone. A surface runs on from one point to another
+/// where a short ray finds it there, of the same zone and its normal within α_n, not buried in a
+/// solid, and nothing stands between. It ends at a *crease*: an edge, a wall, the foot of another
 /// solid, a change of zone.
 class SurfaceWalk {
  public:

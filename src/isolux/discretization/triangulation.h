@@ -134,9 +134,9 @@ class Triangulation {
   void compact();
 
   /// Turns the edge ab between two triangles into the other diagonal of their quadrilateral, where
-  /// that is Delaunay (the angles opposite ab sum to more than π) and the two new triangles obey the
-  /// rules as in split_edge(); the unshot power stays what it was in sum. Returns whether it did;
-  /// the two triangles die then, and edge ab is gone.
+  /// that is Delaunay (the angles opposite ab sum to more than π) and the two new triangles obey
+  /// the rules as in split_edge(); the unshot power stays what it was in sum. Returns whether it
+  /// did; the two triangles die then, and edge ab is gone.
   bool flip(VertexId a, VertexId b);
 
   /// Flips until no edge of `edges`, or edge that a flip touched, asks for it. Cost: linear as a

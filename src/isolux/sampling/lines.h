@@ -12,8 +12,8 @@ struct Line {
 };
 
 /// A line of the invariant measure of lines, given that it meets the sphere; `point` is the middle
-/// of the chord. It crosses a surface of area A inside the sphere A / (2π radius²) times on average,
-/// wherever and however that lies (Crofton).
+/// of the chord. It crosses a surface of area A inside the sphere A / (2π radius²) times on
+/// average, wherever and however that lies (Crofton).
 Line random_line(const Vec3& center, double radius, Random& random);
 
 }  // namespace isolux
