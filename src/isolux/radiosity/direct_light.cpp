@@ -50,6 +50,9 @@ struct Piece {
   std::size_t corner_count;
   Vec3 normal;
   Index first, end;  ///< its triangles of the lattice
+  /// How far the curved surface that it stands for may be off it, m: a receiver on that same surface
+  /// is no more than this before the piece, and must not see it.
+  double off = 0;
 
   std::span<const Vec3> polygon() const { return {corners.data(), corner_count}; }
 };
@@ -166,6 +169,14 @@ class LatticeBuilder {
       const double rise = 1.1 * std::max(0.0, dot(turned, chord)) / 8;
       line.rise = normalized(normals[line.from] + normals[line.to]) * rise;
     }
+    for (Piece& piece : light_.pieces) {
+      for (const Index l : light_.triangles[piece.first].lines) {
+        const LatticeLine& line = light_.lines[l];
+        const Vec3 turned = normals[line.to] - normals[line.from];
+        const Vec3 chord = soup.points[line.to] - soup.points[line.from];
+        piece.off = std::max(piece.off, std::abs(dot(turned, chord)) / 4);
+      }
+    }
   }
 
  private:
@@ -224,7 +235,8 @@ std::shared_ptr<const Light> light_of(const Object& object, double lift) {
 
 /// Whether some of the piece stands above the receiver's horizon, and the receiver before it.
 bool may_see(const Piece& piece, const Receiver& receiver, double epsilon) {
-  if (dot(receiver.point - piece.corners[0], piece.normal) <= epsilon) return false;
+  const double before = dot(receiver.point - piece.corners[0], piece.normal);
+  if (before <= epsilon + piece.off) return false;
   return std::any_of(
       piece.corners.begin(), piece.corners.begin() + piece.corner_count,
       [&](const Vec3& corner) { return dot(corner - receiver.point, receiver.normal) > epsilon; });

@@ -51,6 +51,10 @@ constexpr double kUsualCurve = 0.25;
 // Rays over a hemisphere: cells a side.
 constexpr int kCoarsestGrid = 8, kFinestGrid = 256;
 
+// What a triangle sends is right in the mean for light that is quadratic along its sides; of the
+// error that linear interpolation would make, this part may be left.
+constexpr double kBiasLeft = 0.25;
+
 // 95 of 100 errors are smaller than so many standard deviations.
 constexpr double kConfidence = 2;
 
@@ -124,10 +128,24 @@ class Gathering {
     cover_options.seed = options_.seed;
     cover(mesh_, rays_, cover_options);
     light_newborn();
+    state_.statistics.emitted_flux = emitted_flux();
     state_.level = std::max(options_.tolerance, kFirstTolerance);
     gather_all(kCoarsestGrid);
     transfer();
     estimate();
+  }
+
+  /// Of all objects, lm: of those whose area is not known, as the cover has them.
+  double emitted_flux() const {
+    const auto& objects = rays_.scene().objects;
+    double flux = 0;
+    for (const Object& object : objects) flux += luminous_flux(object);
+    for (const Triangle& triangle : mesh_.triangles()) {
+      const Object& object = objects[mesh_.vertex(triangle.vertices[0]).surface.object];
+      if (!triangle.alive || surface_area(*object.shape)) continue;
+      flux += luminance(triangle.emission) * triangle.area;
+    }
+    return flux;
   }
 
   /// Goes on to a stricter level; false where the goal is reached, or out of reach.
@@ -185,7 +203,7 @@ class Gathering {
   void light_newborn() {
     const std::size_t first = state_.light.size(), n = mesh_.vertices().size();
     state_.light.resize(n);
-    state_.irradiance.resize(n);
+    state_.sent.resize(n);
     std::vector<Vec3> points;
     for (std::size_t v = first; v < n; ++v) points.push_back(mesh_.vertex(VertexId(v)).position);
     const std::vector<std::uint32_t> order = z_order(points);
@@ -205,7 +223,14 @@ class Gathering {
     for (std::size_t v = first; v < n; ++v) sum_up(VertexId(v));
   }
 
-  void sum_up(VertexId v) { state_.irradiance[v] = state_.light[v].direct + state_.light[v].indirect; }
+  Rgb irradiance(VertexId v) const { return state_.light[v].direct + state_.light[v].indirect; }
+
+  /// What a vertex sends follows from what it has.
+  void sum_up(VertexId v) {
+    const Rgb e = irradiance(v);
+    const double l = luminance(e);
+    state_.sent[v] = l > 0 ? e * std::clamp(1 - state_.light[v].excess / l, 0.3, 1.7) : e;
+  }
 
   struct Middle {
     std::optional<SurfacePoint> point;
@@ -350,7 +375,7 @@ class Gathering {
       ++state_.statistics.split;
       split_since_.insert(edges[i].key());
       state_.light.resize(mesh_.vertices().size());
-      state_.irradiance.resize(mesh_.vertices().size());
+      state_.sent.resize(mesh_.vertices().size());
       VertexLight& light = state_.light[*v];
       light.direct = middles[i].direct;
       light.direct_deviation = middles[i].deviation;
@@ -453,13 +478,33 @@ class Gathering {
 
   /// E_i of a vertex with links, under the light of the moment.
   void evaluate(VertexId v) {
-    const Gathered gathered = hemisphere_->gather_with_error(state_.light[v].row, state_.irradiance);
+    const Gathered gathered = hemisphere_->gather_with_error(state_.light[v].row, state_.sent);
     state_.light[v].indirect = gathered.irradiance;
     state_.light[v].indirect_deviation = gathered.error;
   }
 
+  /// By how much interpolation is too bright around each vertex: the mean of e over its edges, by
+  /// their area, which keeps the sum over the whole mesh right.
+  void find_excess() {
+    std::vector<double> sum(state_.light.size()), area(state_.light.size());
+    for (const Edge& e : living_edges(mesh_)) {
+      const double excess = (signed_error(state_.direct_error, e) + signed_error(state_.indirect_error, e)) * e.area;
+      for (const VertexId v : {e.a, e.b}) sum[v] += excess, area[v] += e.area;
+    }
+    for (VertexId v = 0; v < state_.light.size(); ++v) {
+      state_.light[v].excess = area[v] > 0 ? sum[v] / area[v] : 0;
+      sum_up(v);
+    }
+  }
+
+  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors, const Edge& e) {
+    const auto at = errors.find(e.key());
+    return at == errors.end() ? 0 : at->second;
+  }
+
   /// Passes the light on along the links, sweep by sweep, until little is unshot.
   void transfer() {
+    find_excess();
     constexpr int kMostSweeps = 10'000;
     const double enough = kUnshotShare * state_.level;
     std::vector<VertexId> gatherers;
@@ -467,7 +512,7 @@ class Gathering {
       if (state_.light[v].gathers()) gatherers.push_back(v);
     }
     for (int sweep = 0; sweep < kMostSweeps && keep_going(); ++sweep) {
-      const std::vector<Rgb> old = state_.irradiance;
+      const std::vector<Rgb> old = state_.sent;
       parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) evaluate(gatherers[i]);
       });
@@ -483,26 +528,24 @@ class Gathering {
 
   /// The balance after a sweep that began with the irradiances `old`.
   void settle_energy(std::span<const Rgb> old) {
-    double emitted = 0, absorbed = 0, escaped = 0, unshot = 0, incident = 0, total = 0;
+    double absorbed = 0, escaped = 0, unshot = 0, incident = 0, total = 0;
     for (const Triangle& triangle : mesh_.triangles()) {
       if (!triangle.alive) continue;
-      emitted += luminance(triangle.emission) * triangle.area;
       total += triangle.area;
       for (VertexId v : triangle.vertices) {
         const Vertex& vertex = mesh_.vertex(v);
         const double part = triangle.area / 3;
         const Rgb& rho = vertex.reflectance;
-        incident += luminance(state_.irradiance[v]) * part;
-        absorbed += luminance((gray(1) - rho) * state_.irradiance[v]) * part;
-        escaped += luminance(rho * state_.irradiance[v] + triangle.emission) * state_.light[v].escaped * part;
-        unshot += std::abs(luminance(rho * (state_.irradiance[v] - old[v]))) * part;
+        incident += luminance(state_.sent[v]) * part;
+        absorbed += luminance((gray(1) - rho) * state_.sent[v]) * part;
+        escaped += luminance(rho * state_.sent[v] + triangle.emission) * state_.light[v].escaped * part;
+        unshot += std::abs(luminance(rho * (state_.sent[v] - old[v]))) * part;
       }
     }
-    state_.statistics.emitted_flux = emitted;
     state_.statistics.absorbed_flux = absorbed;
     state_.statistics.escaped_flux = escaped;
     state_.statistics.unshot_flux = unshot;
-    state_.statistics.imbalance = emitted - absorbed - escaped - unshot;
+    state_.statistics.imbalance = state_.statistics.emitted_flux - absorbed - escaped - unshot;
     state_.statistics.mean_irradiance = total > 0 ? incident / total : 0;
     state_.statistics.mesh_area = total;
   }
@@ -517,7 +560,7 @@ class Gathering {
       for (VertexId v : triangle.vertices) {
         const Vertex& vertex = mesh_.vertex(v);
         const Rgb sent = vertex.reflectance * (1 - state_.light[v].escaped) * (triangle.area / 3);
-        added += sent * (state_.irradiance[v] - old[v]);
+        added += sent * (state_.sent[v] - old[v]);
         reflected += sent;
         total += triangle.area / 3;
       }
@@ -614,12 +657,12 @@ class Gathering {
         state_.indirect_error[edge.key()] = 0;
         continue;
       }
-      const Gathered gathered = hemisphere_->gather_with_error(rows[i], state_.irradiance);
+      const Gathered gathered = hemisphere_->gather_with_error(rows[i], state_.sent);
       const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
       const double e = luminance((a.indirect + b.indirect) / 2 - gathered.irradiance);
       const double noise = square(gathered.error) + (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
       const double clean = std::sqrt(std::max(0.0, e * e - noise));
-      state_.indirect_error[edge.key()] = static_cast<float>(clean);
+      state_.indirect_error[edge.key()] = static_cast<float>(std::copysign(clean, e));
       if (weight(edge, clean) <= allowed) continue;
       const std::size_t v = mesh_.vertices().size();
       split({&edge, 1}, {&middles[i], 1});
@@ -635,7 +678,7 @@ class Gathering {
   /// e of E_i in the middle of an edge: as it was found, or as a rule.
   double indirect_error(const Edge& e) const {
     const auto known = state_.indirect_error.find(e.key());
-    const double bend = known != state_.indirect_error.end() ? known->second : usual_bend(e.a, e.b);
+    const double bend = known != state_.indirect_error.end() ? std::abs(known->second) : usual_bend(e.a, e.b);
     return bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2;
   }
 
@@ -675,7 +718,7 @@ class Gathering {
     // What the emitters have too much or too little of all gather alike, once for every reflection.
     const double again = reflectance / total * (1 - escaped / total);
     const double unshot = state_.statistics.unshot_flux / total;
-    state_.statistics.emitter_error = (again * std::abs(state_.bias) + unshot) / (1 - again);
+    state_.statistics.emitter_error = (kBiasLeft * again * std::abs(state_.bias) + unshot) / (1 - again);
     const double interpolation = std::sqrt(state_.direct_mean_square + state_.indirect_mean_square);
     state_.statistics.discretization_error = interpolation / mean_irradiance();
     state_.statistics.sampling_error = state_.deviation / mean_irradiance();
@@ -686,8 +729,7 @@ class Gathering {
   std::vector<double> interpolation_errors() const {
     std::vector<double> sum(state_.light.size()), weight(state_.light.size());
     for (const Edge& e : living_edges(mesh_)) {
-      const auto at = state_.direct_error.find(e.key());
-      const double error = (at == state_.direct_error.end() ? 0 : std::abs(at->second)) + indirect_error(e);
+      const double error = std::abs(signed_error(state_.direct_error, e)) + indirect_error(e);
       for (const VertexId v : {e.a, e.b}) sum[v] += error * e.area, weight[v] += e.area;
     }
     for (std::size_t v = 0; v < sum.size(); ++v) {
@@ -701,7 +743,8 @@ class Gathering {
     const std::vector<double> interpolation = interpolation_errors();
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       Vertex& vertex = mesh_.vertex(v);
-      vertex.irradiance = state_.irradiance[v];
+      vertex.irradiance = irradiance(v);
+      vertex.mean_irradiance = state_.sent[v];
       vertex.error = kConfidence * std::sqrt(variance_of(v) + square(state_.light[v].bend)) +
                      interpolation[v] + state_.statistics.emitter_error;
     }
@@ -762,7 +805,7 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   const HemisphereGather hemisphere(rays, mesh, lights.separate());
   std::vector<Rgb> irradiance, errors;
   for (const Vertex& vertex : mesh.vertices()) {
-    irradiance.push_back(vertex.irradiance);
+    irradiance.push_back(vertex.mean_irradiance);
     errors.push_back(gray(vertex.error));
   }
   std::vector<Rgb> direct(receivers.size());

@@ -20,6 +20,7 @@ struct VertexLight {
   double direct_deviation = 0, indirect_deviation = 0;        // σ of their luminance, lx
   double bend = 0;                    // what interpolating E_i may have cost, lx
   double escaped = 0;                 // part of the hemisphere in which no surface is seen
+  double excess = 0;                  // by how much interpolation around it is too bright, lx
   double closeness = 0;               // mean of 1 / distance of what is seen, 1/m
   std::array<VertexId, 2> parents{};  // the ends of the edge that it was born on
   std::vector<Landing> row;           // where it gathers; empty: E_i is the mean of the parents'
@@ -33,8 +34,8 @@ struct GatheringState {
 
   Triangulation mesh;
   std::vector<VertexLight> light;  // by vertex
-  std::vector<Rgb> irradiance;     // E by vertex, lx
-  /// Errors of interpolation in the middle of edges, lx, by the ends a < b: a × 2³² + b.
+  std::vector<Rgb> sent;           // E by vertex as its triangles have it on average, lx
+  /// Errors of interpolation in the middle of edges, lx, positive where it is too bright, by the ends a < b: a × 2³² + b.
   std::unordered_map<std::uint64_t, float> direct_error, indirect_error;
   double level = 0;  // the tolerance that is being worked for
   int tries = 0;     // levels below the tolerance asked for

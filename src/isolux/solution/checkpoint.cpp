@@ -29,7 +29,7 @@ constexpr const char* kFormat = "isolux checkpoint 1";
 /// The numbers of a vertex that are not lists.
 struct PackedVertex {
   Vec3 position, normal, gather_point;
-  Rgb reflectance, irradiance, delta_irradiance;
+  Rgb reflectance, irradiance, delta_irradiance, mean_irradiance;
   double error = 0;
   SurfaceId surface;
   std::uint32_t on_light = 0, neighbours = 0, triangles = 0;  // lengths of lists, the last two
@@ -46,7 +46,7 @@ struct PackedTriangle {
 
 struct PackedLight {
   Rgb direct, indirect;
-  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0, closeness = 0;
+  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0, excess = 0, closeness = 0;
   std::array<VertexId, 2> parents{};
   std::uint64_t landings = 0;
 };
@@ -101,7 +101,7 @@ json mesh_to_json(const Triangulation& mesh) {
   std::vector<std::uint32_t> neighbours, around;
   for (const Vertex& v : mesh.vertices()) {
     vertices.push_back({v.position, v.normal, v.gather_point, v.reflectance, v.irradiance,
-                        v.delta_irradiance, v.error, v.surface, v.on_light,
+                        v.delta_irradiance, v.mean_irradiance, v.error, v.surface, v.on_light,
                         static_cast<std::uint32_t>(v.neighbours.size()),
                         static_cast<std::uint32_t>(v.triangles.size())});
     neighbours.insert(neighbours.end(), v.neighbours.begin(), v.neighbours.end());
@@ -130,6 +130,7 @@ Triangulation mesh_from_json(const json& object, const Rules& rules, const Bound
     v.gather_point = p.gather_point;
     v.irradiance = p.irradiance;
     v.delta_irradiance = p.delta_irradiance;
+    v.mean_irradiance = p.mean_irradiance;
     v.error = p.error;
     v.on_light = p.on_light != 0;
     v.neighbours = take(neighbours, next_neighbour, p.neighbours, "neighbours");
@@ -164,12 +165,12 @@ json state_to_json(const GatheringState& state) {
   std::vector<Landing> landings;
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.bend,
-                      l.escaped, l.closeness, l.parents, l.row.size()});
+                      l.escaped, l.excess, l.closeness, l.parents, l.row.size()});
     landings.insert(landings.end(), l.row.begin(), l.row.end());
   }
   put(object, "light", lights);
   put(object, "landings", landings);
-  put(object, "irradiance", state.irradiance);
+  put(object, "sent", state.sent);
   put_errors(object, "direct_error", state.direct_error);
   put_errors(object, "indirect_error", state.indirect_error);
   for_each_scalar(state, [&](const char* key, double value) { object[key] = value; });
@@ -198,11 +199,11 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
     if (std::max(p.parents[0], p.parents[1]) >= vertex_count) damaged("light");
     state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.bend,
-                           p.escaped, p.closeness, p.parents, take(landings, next, p.landings, "landings")});
+                           p.escaped, p.excess, p.closeness, p.parents, take(landings, next, p.landings, "landings")});
   }
-  state.irradiance = get<Rgb>(object, "irradiance");
+  state.sent = get<Rgb>(object, "sent");
   if (state.light.size() != vertex_count) damaged("light");
-  if (state.irradiance.size() != vertex_count) damaged("irradiance");
+  if (state.sent.size() != vertex_count) damaged("sent");
   state.direct_error = get_errors(object, "direct_error");
   state.indirect_error = get_errors(object, "indirect_error");
   for_each_scalar(state, [&](const char* key, double& value) {

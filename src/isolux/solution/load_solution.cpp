@@ -82,6 +82,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
   const auto position = array<float>(glb, attributes, "POSITION", 3, n);
   const auto normal = array<float>(glb, attributes, "NORMAL", 3, n);
   const auto irradiance = array<float>(glb, attributes, "_IRRADIANCE", 3, n);
+  const auto mean = array<float>(glb, attributes, "_MEAN_IRRADIANCE", 3, n);
   const auto error = array<float>(glb, attributes, "_ERROR", 1, n);
   const auto reflectance = array<float>(glb, attributes, "_REFLECTANCE", 3, n);
   const auto object = array<float>(glb, attributes, "_OBJECT", 1, n);
@@ -95,6 +96,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
     v.position = v.gather_point = vec3_at(position, i);
     v.normal = vec3_at(normal, i);
     v.irradiance = rgb_at(irradiance, i);
+    v.mean_irradiance = rgb_at(mean, i);
     v.error = error[i];
     v.reflectance = rgb_at(reflectance, i);
     v.surface.object = index_at(object, i, static_cast<double>(scene.objects.size()), "object");

@@ -96,7 +96,7 @@ int add_colors(Glb& glb, const Triangulation& mesh) {
 }
 
 json add_attributes(Glb& glb, const Triangulation& mesh) {
-  Array normal, radiosity, irradiance, error, reflectance, object, face;
+  Array normal, radiosity, irradiance, mean, error, reflectance, object, face;
   for (const Vertex& v : mesh.vertices()) {
     if (std::max(v.surface.object, v.surface.face) > 1u << 24) {
       throw InputError("can't be saved: a surface has a number beyond 2^24");
@@ -104,6 +104,7 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
     normal.add(v.normal);
     radiosity.add(saved_radiosity(v));
     irradiance.add(v.irradiance);
+    mean.add(v.mean_irradiance);
     error.add(v.error);
     reflectance.add(v.reflectance);
     object.add(v.surface.object);
@@ -117,6 +118,7 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
           {"COLOR_0", add_colors(glb, mesh)},
           {"_RADIOSITY", add(radiosity, 3)},
           {"_IRRADIANCE", add(irradiance, 3)},
+          {"_MEAN_IRRADIANCE", add(mean, 3)},
           {"_ERROR", add(error, 1)},
           {"_REFLECTANCE", add(reflectance, 3)},
           {"_OBJECT", add(object, 1)},
