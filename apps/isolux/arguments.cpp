@@ -28,8 +28,8 @@ Number parse(const std::string& option, const std::string& given, Number least, 
 }  // namespace
 
 template <typename Number>
-CLI::Option* add_number(CLI::App& command, const std::string& name, const std::string& text, Number& value,
-                        Number least, Number most, const std::string& help) {
+CLI::Option* add_number(CLI::App& command, const std::string& name, const std::string& text,
+                        Number& value, Number least, Number most, const std::string& help) {
   return command
       .add_option_function<std::string>(
           name,
@@ -41,11 +41,11 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, const std::s
 }
 
 template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, int&, int, int,
-                         const std::string&);
+                                 const std::string&);
 template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, std::uint64_t&,
-                         std::uint64_t, std::uint64_t, const std::string&);
-template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, double&, double, double,
-                         const std::string&);
+                                 std::uint64_t, std::uint64_t, const std::string&);
+template CLI::Option* add_number(CLI::App&, const std::string&, const std::string&, double&, double,
+                                 double, const std::string&);
 
 CLI::Option* add_angle(CLI::App& command, const std::string& name, double& radians, double least,
                        double most, const std::string& help) {
@@ -65,7 +65,8 @@ CLI::Option* add_percentage(CLI::App& command, const std::string& name, double& 
       .add_option_function<std::string>(
           name,
           [&share, name, least, most](const std::string& given) {
-            const std::string number = given.ends_with('%') ? given.substr(0, given.size() - 1) : given;
+            const std::string number =
+                given.ends_with('%') ? given.substr(0, given.size() - 1) : given;
             share = parse(name, number, least, most) / 100;
           },
           fmt::format("{} [{:.4g}]", help, 100 * share))

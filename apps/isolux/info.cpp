@@ -53,8 +53,9 @@ std::string describe_scene(const Scene& scene) {
 
 std::string describe_options(const Options& o) {
   if (o.method == Method::gathering) {
-    return fmt::format("options     tolerance {:.4g} %, seed {}{}\n", 100 * o.tolerance, o.seed,
-                       o.max_triangles > 0 ? fmt::format(", at most {} triangles", o.max_triangles) : "");
+    return fmt::format(
+        "options     tolerance {:.4g} %, seed {}{}\n", 100 * o.tolerance, o.seed,
+        o.max_triangles > 0 ? fmt::format(", at most {} triangles", o.max_triangles) : "");
   }
   return fmt::format(
       "options     δ {:.6g} m, Δ {:.6g} m², α_n {:.4g}°, α_s {:.6g}, seed {}\n"
@@ -69,8 +70,12 @@ std::string describe_options(const Options& o) {
 }
 
 std::string describe_gathering(const Statistics& s) {
-  const char* end = s.interrupted ? "interrupted" : s.converged ? "tolerance met" : "tolerance not met";
-  const auto share = [&](double flux) { return s.emitted_flux > 0 ? 100 * flux / s.emitted_flux : 0; };
+  const char* end = s.interrupted ? "interrupted"
+                    : s.converged ? "tolerance met"
+                                  : "tolerance not met";
+  const auto share = [&](double flux) {
+    return s.emitted_flux > 0 ? 100 * flux / s.emitted_flux : 0;
+  };
   return fmt::format(
       "solve       {} ({} rounds), {} vertices gathered {} rays each\n"
       "mesh        {} triangles, {} vertices ({} by splits), {:.6g} m²\n"
@@ -117,7 +122,8 @@ void run(const std::filesystem::path& path) {
   print(fmt::format("{}: a solution by isolux {}\n", path.string(), solution.version) +
         describe_scene(solution.scene) + describe_options(solution.options) +
         (solution.options.method == Method::gathering ? describe_gathering(solution.statistics)
-                                                      : describe_shooting(solution.statistics)) + describe_objects(solution));
+                                                      : describe_shooting(solution.statistics)) +
+        describe_objects(solution));
 }
 
 }  // namespace

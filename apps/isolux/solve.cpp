@@ -62,8 +62,7 @@ OptionList add_refinement(CLI::App& command, Options& o) {
                  "N × N rays of the eye pass, 0: none"),
       add_number(command, "--pairing-tolerance", "X", o.pairing_tolerance, 1e-9, 0.99,
                  "of a ray's two hits, × the distance"),
-      command
-          .add_option("--camera", o.camera, "whose eye the eye pass takes [the first]")
+      command.add_option("--camera", o.camera, "whose eye the eye pass takes [the first]")
           ->option_text("NAME"),
   };
 }
@@ -83,8 +82,8 @@ OptionList add_transfer(CLI::App& command, Options& o) {
 
 /// The paper's method and its parameters, which belong to nothing else.
 CLI::Option* add_preset(CLI::App& command, Options& o) {
-  CLI::Option* preset = add_choice(command, "--preset", o.method,
-                                   {{"paper", Method::shooting}}, "paper: as Lalonde (1993)");
+  CLI::Option* preset = add_choice(command, "--preset", o.method, {{"paper", Method::shooting}},
+                                   "paper: as Lalonde (1993)");
   for (const OptionList& list : {add_refinement(command, o), add_transfer(command, o)}) {
     for (CLI::Option* option : list) option->needs(preset)->group("With --preset paper");
   }
@@ -132,9 +131,10 @@ std::string summary(const Arguments& a, const Statistics& s) {
     return fmt::format("{}{}: {} iterations, {} triangles on {:.3g} m², {:.1f} s", ending(s),
                        a.output.string(), s.iterations, s.triangles, s.mesh_area, s.wall_seconds);
   }
-  return fmt::format("{}{}: {:.4g} lx on average, ± {} estimated, {} triangles on {:.3g} m², {:.1f} s",
-                     ending(s), a.output.string(), s.mean_irradiance, percent(s.error), s.triangles,
-                     s.mesh_area, s.wall_seconds);
+  return fmt::format(
+      "{}{}: {:.4g} lx on average, ± {} estimated, {} triangles on {:.3g} m², {:.1f} s", ending(s),
+      a.output.string(), s.mean_irradiance, percent(s.error), s.triangles, s.mesh_area,
+      s.wall_seconds);
 }
 
 /// What the user should know before trusting the numbers of the paper's method; empty where

@@ -46,15 +46,14 @@ objects:
 TEST(Validation, Cie171AreaSource) {
   ISOLUX_NEED_SHARED();
   const json data = read_case("cie171_5_3_area_source.json");
-  const Solution solution = solved(
-      scene_of(fmt::format(kRoomMaterials, 0) + R"(
+  const Solution solution = solved(scene_of(fmt::format(kRoomMaterials, 0) + R"(
   - {shape: {box: {lower: [0, 0, 0], upper: [4, 4, 3], inward: true}}, material: wall}
   - shape: {parallelogram: {corner: [1.5, 1.5, 3], u: [0, 1, 0], v: [1, 0, 0]}}
     material: black
     sides: front
     emission: {exitance: 3141.592653589793}
 )"),
-      0.01);
+                                   0.01);
   for (const json& point : data.at("points")) {
     const double expected = data.at("expected").at("values").at(std::string(point.at("id")));
     EXPECT_NEAR(lux_at(solution, vec3(point.at("pos")), vec3(point.at("normal"))), expected,
@@ -125,7 +124,8 @@ TEST(Validation, CubePointByPoint) {
   const json data = read_case("cube_pointwise.json");
   for (const double reflectance : {0.2, 0.5, 0.8}) {
     const Solution solution = solved(cube(reflectance), 0.003);
-    const json values = data.at("expected").at("values").at(fmt::format("R1cube_rho{}", reflectance));
+    const json values =
+        data.at("expected").at("values").at(fmt::format("R1cube_rho{}", reflectance));
     for (const json& point : data.at("points")) {
       const double expected = values.at(std::string(point.at("id"))).at("value");
       EXPECT_NEAR(lux_at(solution, vec3(point.at("pos")), {0, 0, 1}), expected, 0.005 * expected)
@@ -174,7 +174,8 @@ objects:
 )"),
                                    0.003);
   for (const auto& [x, expected] : values.items()) {
-    EXPECT_NEAR(lux_at(solution, {std::stod(x), 0, 0}, {0, 0, 1}), 100 * expected.get<double>(), 0.5)
+    EXPECT_NEAR(lux_at(solution, {std::stod(x), 0, 0}, {0, 0, 1}), 100 * expected.get<double>(),
+                0.5)
         << "x = " << x;
   }
 }

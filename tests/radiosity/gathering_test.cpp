@@ -18,8 +18,8 @@ Options to_tolerance(double tolerance) {
   return options;
 }
 
-/// The scene with every object its own reflectance ρ_i and an emission of B₀ (1 − ρ_i): its radiosity
-/// is B₀ everywhere, whatever the geometry, as long as it is closed.
+/// The scene with every object its own reflectance ρ_i and an emission of B₀ (1 − ρ_i): its
+/// radiosity is B₀ everywhere, whatever the geometry, as long as it is closed.
 Scene manufactured(Scene scene, double radiosity) {
   const Material any = scene.materials.front();
   scene.materials.clear();
@@ -76,10 +76,14 @@ TEST(GatheringFurnace, AHundredSmallObjects) {
   for (int i = 0; i < 100; ++i) {
     const double x = 0.05 + 0.9 * random.uniform(), y = 0.05 + 0.9 * random.uniform(),
                  z = 0.05 + 0.9 * random.uniform(), r = 0.01 + 0.03 * random.uniform();
-    yaml += i % 2 ? fmt::format("  - {{shape: {{sphere: {{center: [{}, {}, {}], radius: {}}}}}, "
-                                "material: any}}\n", x, y, z, r)
-                  : fmt::format("  - {{shape: {{box: {{lower: [{}, {}, {}], upper: [{}, {}, {}]}}}}, "
-                                "material: any}}\n", x - r, y - r, z - r, x + r, y + r, z + r);
+    yaml += i % 2 ? fmt::format(
+                        "  - {{shape: {{sphere: {{center: [{}, {}, {}], radius: {}}}}}, "
+                        "material: any}}\n",
+                        x, y, z, r)
+                  : fmt::format(
+                        "  - {{shape: {{box: {{lower: [{}, {}, {}], upper: [{}, {}, {}]}}}}, "
+                        "material: any}}\n",
+                        x - r, y - r, z - r, x + r, y + r, z + r);
   }
   EXPECT_LT(worst_deviation(manufactured(scene_of(yaml), 20), 20), 0.005);
 }
@@ -108,8 +112,8 @@ TEST(Gathering, ResultsDoNotDependOnTheNumberOfThreads) {
 TEST(Gathering, EndsWhenToldWithAValidSolution) {
   for (const int looks : {0, 1, 5, 20}) {
     int left = looks;
-    const Solved solved = solve(paper_room(), to_tolerance(0.01),
-                                [&](const Progress&) { return left-- > 0; });
+    const Solved solved =
+        solve(paper_room(), to_tolerance(0.01), [&](const Progress&) { return left-- > 0; });
     EXPECT_TRUE(solved.statistics.interrupted);
     EXPECT_FALSE(solved.statistics.converged);
     EXPECT_GT(solved.mesh.triangle_count(), 100u);
@@ -120,9 +124,9 @@ TEST(Gathering, EndsWhenToldWithAValidSolution) {
 TEST(Gathering, GoesOnFromACheckpointToTheSameBits) {
   const Scene scene = paper_room();
   std::vector<GatheringState> checkpoints;
-  const Solved whole = solve_by_gathering(
-      scene, to_tolerance(0.03),
-      {{}, [&](const GatheringState& state) { checkpoints.push_back(state); }});
+  const Solved whole =
+      solve_by_gathering(scene, to_tolerance(0.03),
+                         {{}, [&](const GatheringState& state) { checkpoints.push_back(state); }});
   ASSERT_GE(checkpoints.size(), 2u);
   for (const GatheringState& checkpoint : {checkpoints.front(), checkpoints.back()}) {
     const Solved rest = solve_by_gathering(scene, to_tolerance(0.03), {}, checkpoint);

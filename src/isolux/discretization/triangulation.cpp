@@ -81,8 +81,8 @@ Triangulation::Triangulation(const Rules& rules, const Bounds& bounds)
   }
 }
 
-Triangulation::Triangulation(const Rules& rules, const Bounds& bounds,
-                             std::vector<Vertex> vertices, std::vector<Triangle> triangles)
+Triangulation::Triangulation(const Rules& rules, const Bounds& bounds, std::vector<Vertex> vertices,
+                             std::vector<Triangle> triangles)
     : Triangulation(rules, bounds) {
   const auto all_below = [](const auto& ids, std::size_t limit) {
     return std::all_of(ids.begin(), ids.end(), [&](auto id) { return id < limit; });

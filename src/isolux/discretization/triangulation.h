@@ -51,7 +51,7 @@ struct Vertex : SurfacePoint {
   Rgb delta_irradiance;  ///< the part of it that came from the current shot, lx
   Rgb mean_irradiance;   ///< E as the triangles around have it on average, by which they send, lx;
                          ///< zero where it was not found out
-  double error = 0;      ///< of the irradiance's luminance, lx: 95 in 100 are less wrong; 0: unknown
+  double error = 0;  ///< of the irradiance's luminance, lx: 95 in 100 are less wrong; 0: unknown
   bool on_light = false;
   std::vector<VertexId> neighbours;   ///< ends of the possible edges from here
   std::vector<TriangleId> triangles;  ///< the triangles around it

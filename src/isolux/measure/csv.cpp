@@ -159,8 +159,8 @@ std::string measurements_to_csv(std::span<const Measurement> measurements) {
     const auto& [p, n] = m.at;
     const Rgb& e = m.irradiance;
     fmt::format_to(std::back_inserter(csv),
-                   "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", p.x,
-                   p.y, p.z, n.x, n.y, n.z, e.r, e.g, e.b, m.illuminance(),
+                   "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n",
+                   p.x, p.y, p.z, n.x, n.y, n.z, e.r, e.g, e.b, m.illuminance(),
                    m.error ? fmt::format("{:.3g}", *m.error) : "");
   }
   return csv;

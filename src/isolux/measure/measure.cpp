@@ -31,8 +31,8 @@ void from_triangles(const Solution& solution, const RayCaster& rays,
 /// As the vertices of the solution gathered theirs.
 void by_rays(const Solution& solution, const RayCaster& rays, std::span<const Receiver> receivers,
              std::span<Measurement> measurements) {
-  const std::vector<Illumination> found = gather_at(solution.mesh, rays, solution.statistics,
-                                                    receivers, solution.options.seed);
+  const std::vector<Illumination> found =
+      gather_at(solution.mesh, rays, solution.statistics, receivers, solution.options.seed);
   for (std::size_t i = 0; i < found.size(); ++i) {
     measurements[i].irradiance = found[i].irradiance;
     measurements[i].error = found[i].error;

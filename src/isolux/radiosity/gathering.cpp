@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "isolux/core/error.h"
 #include "isolux/core/parallel.h"
@@ -26,10 +25,11 @@ namespace isolux {
 namespace {
 
 // How the tolerance is shared out among its sources; the squares add up to less than 1.
-constexpr double kDirectShare = 0.55;    // interpolation of E_d
-constexpr double kIndirectShare = 0.4;   // interpolation of E_i
-constexpr double kSamplingShare = 0.5;   // σ of E_i
-constexpr double kUnshotShare = 0.02;    // light not yet passed on
+constexpr double kDirectShare = 0.55;   // interpolation of E_d
+constexpr double kIndirectShare = 0.4;  // interpolation of E_i
+constexpr double kSamplingShare = 0.5;  // σ of E_i
+constexpr double kUnshotShare = 0.02;   // light not yet passed on
+constexpr double kRenewalShare = 0.1;   // what a row of links may gain from the mesh's refinement
 
 // The first solution is this rough, each next one finer by up to this factor.
 constexpr double kFirstTolerance = 0.08;
@@ -162,7 +162,6 @@ class Gathering {
     return ++state_.tries < kMostTries;
   }
 
-
   bool full() const {
     return options_.max_triangles > 0 && mesh_.triangle_count() >= options_.max_triangles;
   }
@@ -171,15 +170,19 @@ class Gathering {
   bool keep_going() {
     if (!stopped_ && callbacks_.progress) {
       const double seconds = stopwatch_.wall();
-      const auto ray_count = double(state_.statistics.refinement_rays + state_.statistics.shadow_rays);
-      stopped_ = !callbacks_.progress({state_.statistics.iterations, 0, state_.statistics.error, unshot_part(),
-                             mesh_.triangle_count(), ray_count / std::max(seconds, 1e-9), 0});
+      const auto ray_count =
+          double(state_.statistics.refinement_rays + state_.statistics.shadow_rays);
+      stopped_ = !callbacks_.progress({state_.statistics.iterations, 0, state_.statistics.error,
+                                       unshot_part(), mesh_.triangle_count(),
+                                       ray_count / std::max(seconds, 1e-9), 0});
     }
     return !stopped_;
   }
 
   double unshot_part() const {
-    return state_.statistics.emitted_flux > 0 ? state_.statistics.unshot_flux / state_.statistics.emitted_flux : 1;
+    return state_.statistics.emitted_flux > 0
+               ? state_.statistics.unshot_flux / state_.statistics.emitted_flux
+               : 1;
   }
 
   /// Calls body(begin, end) for pieces of 0 … n − 1 on several threads, until told to stop. Returns
@@ -189,9 +192,8 @@ class Gathering {
     std::size_t done = 0;
     while (done < n && keep_going()) {
       const std::size_t first = done, count = std::min(kChunk, n - first);
-      parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
-        body(first + begin, first + end);
-      });
+      parallel_for(count, kGrain,
+                   [&](std::size_t begin, std::size_t end) { body(first + begin, first + end); });
       done += count;
     }
     return done;
@@ -283,9 +285,9 @@ class Gathering {
     if (!middle.point) return 0;
     const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
     const double e = luminance((a.direct + b.direct) / 2 - middle.direct);
-    const double noise = middle.deviation * middle.deviation +
-                         (a.direct_deviation * a.direct_deviation +
-                          b.direct_deviation * b.direct_deviation) / 4;
+    const double noise =
+        middle.deviation * middle.deviation +
+        (a.direct_deviation * a.direct_deviation + b.direct_deviation * b.direct_deviation) / 4;
     return std::copysign(std::sqrt(std::max(0.0, e * e - noise)), e);
   }
 
@@ -311,7 +313,8 @@ class Gathering {
     if (state_.direct_error.size() > 3 * edges.size()) {
       std::unordered_map<std::uint64_t, float> living;
       for (const Edge& e : edges) {
-        if (const auto at = state_.direct_error.find(e.key()); at != state_.direct_error.end()) living.insert(*at);
+        if (const auto at = state_.direct_error.find(e.key()); at != state_.direct_error.end())
+          living.insert(*at);
       }
       state_.direct_error.swap(living);
     }
@@ -373,7 +376,9 @@ class Gathering {
         continue;
       }
       ++state_.statistics.split;
-      split_since_.insert(edges[i].key());
+      split_since_[edges[i].key()] =
+          static_cast<float>(std::abs(signed_error(state_.direct_error, edges[i]) +
+                                      signed_error(state_.indirect_error, edges[i])));
       state_.light.resize(mesh_.vertices().size());
       state_.sent.resize(mesh_.vertices().size());
       VertexLight& light = state_.light[*v];
@@ -410,7 +415,8 @@ class Gathering {
     const double ratio = distance(mesh_.vertex(v).position, mesh_.vertex(w).position) *
                          (a.closeness + b.closeness) / 4;
     const double mean = luminance(a.indirect + b.indirect) / 2;
-    return std::max(kUsualBend * difference(v, w), kUsualCurve * mean * std::min(1.0, ratio * ratio));
+    return std::max(kUsualBend * difference(v, w),
+                    kUsualCurve * mean * std::min(1.0, ratio * ratio));
   }
 
   // Indirect light ----------------------------------------------------------------------------
@@ -420,7 +426,8 @@ class Gathering {
   int grid_for(double level) const {
     const double wanted = kSamplingShare * level * mean_irradiance();
     if (!(state_.deviation > wanted)) return state_.grid;
-    return static_cast<int>(std::min<double>(std::ceil(state_.grid * std::pow(state_.deviation / wanted, 2.0 / 3)), kFinestGrid));
+    return static_cast<int>(std::min<double>(
+        std::ceil(state_.grid * std::pow(state_.deviation / wanted, 2.0 / 3)), kFinestGrid));
   }
 
   /// New links for the vertices that gather, grid² rays each, over the mesh as it is now.
@@ -483,21 +490,35 @@ class Gathering {
     state_.light[v].indirect_deviation = gathered.error;
   }
 
-  /// By how much interpolation is too bright around each vertex: the mean of e over its edges, by
-  /// their area, which keeps the sum over the whole mesh right.
-  void find_excess() {
+  /// The mean of the errors `e` of edges around each vertex, by area, so that the sum over the
+  /// whole mesh is right.
+  template <typename Error>
+  std::vector<double> around_vertices(std::span<const Edge> edges, Error&& error) const {
     std::vector<double> sum(state_.light.size()), area(state_.light.size());
-    for (const Edge& e : living_edges(mesh_)) {
-      const double excess = (signed_error(state_.direct_error, e) + signed_error(state_.indirect_error, e)) * e.area;
-      for (const VertexId v : {e.a, e.b}) sum[v] += excess, area[v] += e.area;
+    for (const Edge& e : edges) {
+      for (const VertexId v : {e.a, e.b}) sum[v] += error(e) * e.area, area[v] += e.area;
     }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+      if (area[v] > 0) sum[v] /= area[v];
+    }
+    return sum;
+  }
+
+  /// By how much interpolation is too bright around each vertex.
+  void find_excess() {
+    const std::vector<Edge> edges = living_edges(mesh_);
+    indirect_excess_ = around_vertices(
+        edges, [&](const Edge& e) { return signed_error(state_.indirect_error, e); });
+    const std::vector<double> direct_excess =
+        around_vertices(edges, [&](const Edge& e) { return signed_error(state_.direct_error, e); });
     for (VertexId v = 0; v < state_.light.size(); ++v) {
-      state_.light[v].excess = area[v] > 0 ? sum[v] / area[v] : 0;
+      state_.light[v].excess = direct_excess[v] + indirect_excess_[v];
       sum_up(v);
     }
   }
 
-  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors, const Edge& e) {
+  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors,
+                             const Edge& e) {
     const auto at = errors.find(e.key());
     return at == errors.end() ? 0 : at->second;
   }
@@ -518,12 +539,40 @@ class Gathering {
       });
       for (VertexId v = 0; v < state_.light.size(); ++v) {
         if (!state_.light[v].gathers()) interpolate_indirect(v);
-        sum_up(v);
       }
+      balance_indirect();
+      for (VertexId v = 0; v < state_.light.size(); ++v) sum_up(v);
       settle_energy(old);
       if (state_.statistics.unshot_flux <= enough * state_.statistics.emitted_flux) break;
       add_ambient(old);
     }
+  }
+
+  /// In a closed scene all that is sent arrives: where interpolation gives a little more or less,
+  /// E_i is put right as a whole.
+  void balance_indirect() {
+    constexpr double kClosed = 1e-3;  // of the light sent, lost at most
+    Rgb sent, received;
+    double lost = 0;
+    for (const Triangle& triangle : mesh_.triangles()) {
+      if (!triangle.alive) continue;
+      const std::uint32_t object = mesh_.vertex(triangle.vertices[0]).surface.object;
+      const Rgb emission = lights_.separate()[object] ? Rgb{} : triangle.emission;
+      for (VertexId v : triangle.vertices) {
+        const VertexLight& light = state_.light[v];
+        const double part = triangle.area / 3;
+        const Rgb radiosity = emission + mesh_.vertex(v).reflectance * state_.sent[v];
+        const double l = luminance(light.indirect);
+        sent += radiosity * part;
+        lost += luminance(radiosity) * light.escaped * part;
+        received += light.indirect * (l > 0 ? part * (1 - indirect_excess_[v] / l) : 0);
+      }
+    }
+    if (!(lost <= kClosed * luminance(sent))) return;
+    const auto ratio = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.9, 1.1) : 1; };
+    const Rgb factor{ratio(sent.r, received.r), ratio(sent.g, received.g),
+                     ratio(sent.b, received.b)};
+    for (VertexLight& light : state_.light) light.indirect = light.indirect * factor;
   }
 
   /// The balance after a sweep that began with the irradiances `old`.
@@ -538,7 +587,8 @@ class Gathering {
         const Rgb& rho = vertex.reflectance;
         incident += luminance(state_.sent[v]) * part;
         absorbed += luminance((gray(1) - rho) * state_.sent[v]) * part;
-        escaped += luminance(rho * state_.sent[v] + triangle.emission) * state_.light[v].escaped * part;
+        escaped +=
+            luminance(rho * state_.sent[v] + triangle.emission) * state_.light[v].escaped * part;
         unshot += std::abs(luminance(rho * (state_.sent[v] - old[v]))) * part;
       }
     }
@@ -566,7 +616,8 @@ class Gathering {
       }
     }
     const auto ambient = [&](double a, double r) { return a / total / (1 - r / total); };
-    const Rgb more{ambient(added.r, reflected.r), ambient(added.g, reflected.g), ambient(added.b, reflected.b)};
+    const Rgb more{ambient(added.r, reflected.r), ambient(added.g, reflected.g),
+                   ambient(added.b, reflected.b)};
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       state_.light[v].indirect += more;
       sum_up(v);
@@ -585,12 +636,16 @@ class Gathering {
 
       std::vector<VertexId> doubtful;
       for (VertexId v = 0; v < state_.light.size(); ++v) {
-        if (!state_.light[v].gathers() && kMeanSquare * square(state_.light[v].bend) * around[v] > allowed) doubtful.push_back(v);
+        if (!state_.light[v].gathers() &&
+            kMeanSquare * square(state_.light[v].bend) * around[v] > allowed)
+          doubtful.push_back(v);
       }
       std::vector<Edge> suspect;
       for (const Edge& e : edges) {
-        if (!state_.light[e.a].gathers() || !state_.light[e.b].gathers() || state_.indirect_error.contains(e.key())) continue;
-        if (weight(e, usual_bend(e.a, e.b)) > allowed) suspect.push_back(e);
+        if (!state_.light[e.a].gathers() || !state_.light[e.b].gathers() ||
+            state_.indirect_error.contains(e.key()))
+          continue;
+        if (weight(e, state_.bend_scale * usual_bend(e.a, e.b)) > allowed) suspect.push_back(e);
       }
       if (doubtful.empty() && (suspect.empty() || full())) break;
       trace(doubtful);
@@ -607,24 +662,27 @@ class Gathering {
     state_.indirect_mean_square = indirect_mean_square();
   }
 
-  /// Links anew the vertices of whose rays a good part landed on edges that are split since: there
-  /// the mesh knows the light better now.
+  /// Links anew the vertices whose rays landed on edges that are split since, where this matters:
+  /// the mesh knows the light there better now.
   void renew_links() {
-    constexpr double kGoodPart = 0.02;
     if (split_since_.empty()) return;
-    const auto outdated = [&](const Landing& landing) {
+    const double matters = kRenewalShare * state_.level * mean_irradiance();
+    const auto gain = [&](const Landing& landing) {
+      double most = 0;
       for (int k = 0; k < 3; ++k) {
         const auto [a, b] = std::minmax(landing.vertices[k], landing.vertices[(k + 1) % 3]);
-        if (split_since_.contains(Edge{a, b}.key())) return true;
+        const auto split = split_since_.find(Edge{a, b}.key());
+        if (split != split_since_.end()) most = std::max(most, double(split->second));
       }
-      return false;
+      return most > 0 ? most * luminance(mesh_.vertex(landing.vertices[0]).reflectance) / 2 : 0;
     };
     std::vector<char> renew(state_.light.size());
     parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const std::vector<Landing>& row = state_.light[v].row;
-        const auto count = std::count_if(row.begin(), row.end(), outdated);
-        renew[v] = static_cast<double>(count) > kGoodPart * static_cast<double>(row.size());
+        double sum = 0;
+        for (const Landing& landing : row) sum += gain(landing);
+        renew[v] = sum > matters * static_cast<double>(row.size());
       }
     });
     std::vector<VertexId> vertices;
@@ -651,8 +709,10 @@ class Gathering {
       }
     });
     state_.statistics.refinement_rays += suspect.size() * square_of(state_.grid);
+    double foreseen = 0, found = 0;
     for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
       const Edge& edge = suspect[i];
+      foreseen += weight(edge, usual_bend(edge.a, edge.b));
       if (rows[i].empty()) {
         state_.indirect_error[edge.key()] = 0;
         continue;
@@ -660,9 +720,11 @@ class Gathering {
       const Gathered gathered = hemisphere_->gather_with_error(rows[i], state_.sent);
       const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
       const double e = luminance((a.indirect + b.indirect) / 2 - gathered.irradiance);
-      const double noise = square(gathered.error) + (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
+      const double noise = square(gathered.error) +
+                           (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
       const double clean = std::sqrt(std::max(0.0, e * e - noise));
       state_.indirect_error[edge.key()] = static_cast<float>(std::copysign(clean, e));
+      found += weight(edge, clean);
       if (weight(edge, clean) <= allowed) continue;
       const std::size_t v = mesh_.vertices().size();
       split({&edge, 1}, {&middles[i], 1});
@@ -673,12 +735,17 @@ class Gathering {
       light.indirect_deviation = gathered.error;
       sum_up(static_cast<VertexId>(v));
     }
+    if (foreseen > 0) {
+      state_.bend_scale = std::clamp(1.5 * std::sqrt(found / foreseen), 0.2, 1.0);
+    }
   }
 
   /// e of E_i in the middle of an edge: as it was found, or as a rule.
   double indirect_error(const Edge& e) const {
     const auto known = state_.indirect_error.find(e.key());
-    const double bend = known != state_.indirect_error.end() ? std::abs(known->second) : usual_bend(e.a, e.b);
+    const double bend = known != state_.indirect_error.end()
+                            ? std::abs(known->second)
+                            : state_.bend_scale * usual_bend(e.a, e.b);
     return bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2;
   }
 
@@ -718,29 +785,22 @@ class Gathering {
     // What the emitters have too much or too little of all gather alike, once for every reflection.
     const double again = reflectance / total * (1 - escaped / total);
     const double unshot = state_.statistics.unshot_flux / total;
-    state_.statistics.emitter_error = (kBiasLeft * again * std::abs(state_.bias) + unshot) / (1 - again);
+    state_.statistics.emitter_error =
+        (kBiasLeft * again * std::abs(state_.bias) + unshot) / (1 - again);
     const double interpolation = std::sqrt(state_.direct_mean_square + state_.indirect_mean_square);
     state_.statistics.discretization_error = interpolation / mean_irradiance();
     state_.statistics.sampling_error = state_.deviation / mean_irradiance();
-    state_.statistics.error = (std::hypot(interpolation, state_.deviation) + state_.statistics.emitter_error) / mean_irradiance();
-  }
-
-  /// What interpolation costs around each vertex, on average over its edges, lx.
-  std::vector<double> interpolation_errors() const {
-    std::vector<double> sum(state_.light.size()), weight(state_.light.size());
-    for (const Edge& e : living_edges(mesh_)) {
-      const double error = std::abs(signed_error(state_.direct_error, e)) + indirect_error(e);
-      for (const VertexId v : {e.a, e.b}) sum[v] += error * e.area, weight[v] += e.area;
-    }
-    for (std::size_t v = 0; v < sum.size(); ++v) {
-      if (weight[v] > 0) sum[v] /= weight[v];
-    }
-    return sum;
+    state_.statistics.error =
+        (std::hypot(interpolation, state_.deviation) + state_.statistics.emitter_error) /
+        mean_irradiance();
   }
 
   /// What goes with the solution.
   void finish() {
-    const std::vector<double> interpolation = interpolation_errors();
+    const std::vector<double> interpolation =
+        around_vertices(living_edges(mesh_), [&](const Edge& e) {
+          return std::abs(signed_error(state_.direct_error, e)) + indirect_error(e);
+        });
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       Vertex& vertex = mesh_.vertex(v);
       vertex.irradiance = irradiance(v);
@@ -763,7 +823,9 @@ class Gathering {
     state_.statistics.wall_seconds = stopwatch_.wall();
   }
 
-  static std::uint64_t square_of(int n) { return static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n); }
+  static std::uint64_t square_of(int n) {
+    return static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
+  }
 
   GatheringState& state_;
   Triangulation& mesh_;
@@ -773,7 +835,8 @@ class Gathering {
   const Stopwatch stopwatch_;
   const DirectLight lights_;
   std::optional<HemisphereGather> hemisphere_;  // over the mesh as it was at the last gather_all()
-  std::unordered_set<std::uint64_t> split_since_;  // edges split since then
+  std::unordered_map<std::uint64_t, float> split_since_;  // edges split since then, and their |e|
+  std::vector<double> indirect_excess_;                   // by vertex, lx: of the errors of E_i
   bool stopped_ = false;
 };
 
@@ -812,7 +875,9 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   std::vector<double> deviation(receivers.size());
   lights.irradiance(receivers, direct, deviation);
 
-  const int grid = static_cast<int>(std::lround(std::sqrt(solved.gather_rays)));
+  // Few points deserve more rays than each of very many vertices.
+  constexpr double kFinerGrid = 1.5;
+  const int grid = static_cast<int>(std::lround(kFinerGrid * std::sqrt(solved.gather_rays)));
   std::vector<Illumination> result(receivers.size());
   parallel_for(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<Landing> row(static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid));
@@ -821,8 +886,9 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
       const Gathered indirect = hemisphere.gather_with_error(row, irradiance);
       result[i].irradiance = direct[i] + indirect.irradiance;
       const double emitters = luminance(hemisphere.reflected(row, errors));
-      result[i].error = std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), emitters) +
-                        solved.emitter_error;
+      result[i].error =
+          std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), emitters) +
+          solved.emitter_error;
     }
   });
   return result;

@@ -17,10 +17,10 @@ namespace isolux {
 /// middle of an edge differs from the light interpolated there. Ends when the estimated error of
 /// the illuminance is within Options::tolerance.
 ///
-/// `state` is a new one, of an empty mesh with gathering_rules(), or as a checkpoint had it: then it
-/// goes on from there, to the same bits. Afterwards each vertex has its irradiance and its error,
-/// and nothing of what the triangles sent is unshot but Statistics::unshot_flux. Throws InputError
-/// where no object emits.
+/// `state` is a new one, of an empty mesh with gathering_rules(), or as a checkpoint had it: then
+/// it goes on from there, to the same bits. Afterwards each vertex has its irradiance and its
+/// error, and nothing of what the triangles sent is unshot but Statistics::unshot_flux. Throws
+/// InputError where no object emits.
 void gather_radiosity(GatheringState& state, const RayCaster& rays, const Options& options,
                       const GatheringCallbacks& callbacks);
 
@@ -35,7 +35,7 @@ struct Illumination {
 };
 
 /// What the receivers gather from a mesh that gather_radiosity() has lit, `solved` being what it
-/// returned: straight from the lights, and by reflection with as many rays as its vertices used.
+/// returned: straight from the lights, and by reflection with 2¼ times as many rays as its vertices used.
 /// Neighbours in the list should be neighbours in space.
 std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& rays,
                                     const Statistics& solved, std::span<const Receiver> receivers,

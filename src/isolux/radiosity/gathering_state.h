@@ -16,10 +16,10 @@ namespace isolux {
 
 /// The light of a vertex by its parts, E = E_d + E_i: straight from the lights, and by reflection.
 struct VertexLight {
-  Rgb direct, indirect;                                       // lx
-  double direct_deviation = 0, indirect_deviation = 0;        // σ of their luminance, lx
-  double bend = 0;                    // what interpolating E_i may have cost, lx
-  double escaped = 0;                 // part of the hemisphere in which no surface is seen
+  Rgb direct, indirect;                                 // lx
+  double direct_deviation = 0, indirect_deviation = 0;  // σ of their luminance, lx
+  double bend = 0;                                      // what interpolating E_i may have cost, lx
+  double escaped = 0;                 // part of the hemisphere from where no light can come back
   double excess = 0;                  // by how much interpolation around it is too bright, lx
   double closeness = 0;               // mean of 1 / distance of what is seen, 1/m
   std::array<VertexId, 2> parents{};  // the ends of the edge that it was born on
@@ -35,14 +35,16 @@ struct GatheringState {
   Triangulation mesh;
   std::vector<VertexLight> light;  // by vertex
   std::vector<Rgb> sent;           // E by vertex as its triangles have it on average, lx
-  /// Errors of interpolation in the middle of edges, lx, positive where it is too bright, by the ends a < b: a × 2³² + b.
+  /// Errors of interpolation in the middle of edges, lx, positive where it is too bright, by the
+  /// ends a < b: a × 2³² + b.
   std::unordered_map<std::uint64_t, float> direct_error, indirect_error;
   double level = 0;  // the tolerance that is being worked for
   int tries = 0;     // levels below the tolerance asked for
   int grid = 0;      // rays over a hemisphere: cells a side
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
-  double bias = 0;                                          // mean of direct_error, lx
-  double deviation = 0;                                     // root mean square of σ, lx
+  double bend_scale = 1;  // what is foreseen of the errors of interpolating E_i is right times this
+  double bias = 0;        // mean of direct_error, lx
+  double deviation = 0;   // root mean square of σ, lx
   Statistics statistics;
 };
 

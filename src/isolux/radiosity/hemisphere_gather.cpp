@@ -142,7 +142,7 @@ Rgb HemisphereGather::reflected(std::span<const Landing> row,
 
 double HemisphereGather::escaped(std::span<const Landing> row) const {
   const auto out = std::count_if(row.begin(), row.end(), [&](const Landing& landing) {
-    return landing.surface == surfaces_.size() - 1;
+    return landing.surface >= surfaces_.size() - 2;
   });
   return static_cast<double>(out) / static_cast<double>(row.size());
 }

@@ -61,7 +61,8 @@ class HemisphereGather {
   /// The part of gather() that is reflected, without what the surfaces emit by themselves.
   Rgb reflected(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
 
-  /// The part of the row's rays that leave the scene.
+  /// The part of the row's rays from where no light comes back: they leave the scene, or meet a
+  /// black back.
   double escaped(std::span<const Landing> row) const;
 
   /// Landing::surface is less than this.

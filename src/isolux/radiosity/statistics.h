@@ -7,9 +7,9 @@ namespace isolux {
 /// What a solve did. Fluxes are luminous (lm), the colour channels weighted to luminance.
 struct Statistics {
   int iterations = 0;
-  bool converged = false;       ///< the tolerance was met, or (shooting) the unshot power fell below
-                                ///< Options::stop_at_unshot
-  bool interrupted = false;     ///< stopped by the caller before that
+  bool converged = false;    ///< the tolerance was met, or (shooting) the unshot power fell below
+                             ///< Options::stop_at_unshot
+  bool interrupted = false;  ///< stopped by the caller before that
   std::uint64_t triangles = 0;  ///< alive, those of lights included
   std::uint64_t vertices = 0;
   std::uint64_t removed = 0;   ///< triangles that a ray proved wrong (§3.2.4)
@@ -23,18 +23,18 @@ struct Statistics {
   double mesh_area = 0;         ///< m²
 
   // Of gathering alone.
-  int gather_rays = 0;             ///< over the hemisphere of each point that gathers
-  std::uint64_t gatherers = 0;     ///< vertices whose indirect light was gathered, not interpolated
-  double absorbed_flux = 0;        ///< lm
-  double escaped_flux = 0;         ///< lm: left the scene
-  double imbalance = 0;            ///< lm: emitted − absorbed − escaped − unshot
-  double mean_irradiance = 0;      ///< lx, over all surfaces
-  double error = 0;                ///< estimated root mean square, relative to mean_irradiance
-  double discretization_error = 0; ///< its part from interpolation
-  double sampling_error = 0;       ///< its part from rays
-  double emitter_error = 0;        ///< lx: what interpolated emitters may add to any gathered value
+  int gather_rays = 0;          ///< over the hemisphere of each point that gathers
+  std::uint64_t gatherers = 0;  ///< vertices whose indirect light was gathered, not interpolated
+  double absorbed_flux = 0;     ///< lm
+  double escaped_flux = 0;      ///< lm: left the scene, or fell on black backs
+  double imbalance = 0;         ///< lm: emitted − absorbed − escaped − unshot
+  double mean_irradiance = 0;   ///< lx, over all surfaces
+  double error = 0;             ///< estimated root mean square, relative to mean_irradiance
+  double discretization_error = 0;  ///< its part from interpolation
+  double sampling_error = 0;        ///< its part from rays
+  double emitter_error = 0;  ///< lx: what interpolated emitters may add to any gathered value
 
-  double cpu_seconds = 0;       ///< not part of the solution's file: it differs between runs
+  double cpu_seconds = 0;  ///< not part of the solution's file: it differs between runs
   double wall_seconds = 0;
 };
 

@@ -46,7 +46,8 @@ struct PackedTriangle {
 
 struct PackedLight {
   Rgb direct, indirect;
-  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0, excess = 0, closeness = 0;
+  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0, excess = 0,
+         closeness = 0;
   std::array<VertexId, 2> parents{};
   std::uint64_t landings = 0;
 };
@@ -63,6 +64,7 @@ void for_each_scalar(State& state, F&& f) {
   f("level", state.level);
   f("direct_mean_square", state.direct_mean_square);
   f("indirect_mean_square", state.indirect_mean_square);
+  f("bend_scale", state.bend_scale);
   f("bias", state.bias);
   f("deviation", state.deviation);
 }
@@ -199,7 +201,8 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
     if (std::max(p.parents[0], p.parents[1]) >= vertex_count) damaged("light");
     state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.bend,
-                           p.escaped, p.excess, p.closeness, p.parents, take(landings, next, p.landings, "landings")});
+                           p.escaped, p.excess, p.closeness, p.parents,
+                           take(landings, next, p.landings, "landings")});
   }
   state.sent = get<Rgb>(object, "sent");
   if (state.light.size() != vertex_count) damaged("light");
@@ -227,7 +230,7 @@ json circumstances(const Scene& scene, const Options& options) {
 }
 
 GatheringState decode(const std::string& bytes, const Scene& scene, const Options& options,
-                  const Rules& rules) {
+                      const Rules& rules) {
   const json root = json::from_cbor(bytes, true, false);
   if (root.is_discarded() || !root.is_object() || root.value("format", "") != kFormat) {
     throw InputError("is no checkpoint of isolux, or is cut off");
