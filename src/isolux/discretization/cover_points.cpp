@@ -12,6 +12,8 @@ constexpr double kTurnPerSize = 0.55;
 // Size in a strip, in widths of it; not less than this part of the spacing.
 constexpr double kStripWidths = 2;
 constexpr double kLeastStrip = 1.0 / 32;
+// No curvature makes points finer than this part of the largest size on their object.
+constexpr double kLeastSize = 1.0 / 64;
 // Sizes grow by this much a metre.
 constexpr double kGrading = 0.5;
 // The least distance of two points, and of a point from a crease, in sizes.
@@ -41,7 +43,13 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
   constexpr double kNear = 0.35;
   const Vec3 second = cross(point.normal, first);
   Surroundings around{limit};
+  const double most_turn = kTurnPerSize * walk_.normal_tolerance();
   double curvature = 0;
+  // Over an edge so blunt that it counts as smooth, less turn than that would read as curvature.
+  const auto see_turn = [&](const ZonePoint& there, double away) {
+    const double turn = angle_between(there.normal, point.normal);
+    if (turn > most_turn) curvature = std::max(curvature, turn / away);
+  };
   std::array<double, kDirections> ends;
   ends.fill(std::numeric_limits<double>::infinity());
   for (int k = 0; k < kDirections; ++k) {
@@ -55,14 +63,11 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
         break;
       }
       near = t;
-      curvature = std::max(curvature, angle_between(found->normal, point.normal) / t);
+      see_turn(*found, t);
     }
     if (far == 0) continue;
     const Rim rim = walk_.rim(point, d, near, far, limit / 64);
-    if (rim.distance > 0) {
-      const double turn = angle_between(rim.point.normal, point.normal);
-      curvature = std::max(curvature, turn / rim.distance);
-    }
+    if (rim.distance > 0) see_turn(rim.point, rim.distance);
     const Vec3 on = tangential(d, rim.point.normal);
     if (!walk_.step(rim.point, rim.point.position + on * (limit / 16))) {
       ends[k] = rim.distance;
@@ -70,15 +75,15 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
       around.to_crease = std::min(around.to_crease, rim.distance);
     }
   }
-  around.size =
-      std::min(limit, kTurnPerSize * walk_.normal_tolerance() / std::max(curvature, 1e-30));
+  const double least = std::min(limit, kLeastSize * largest_on(point));
+  around.size = std::clamp(most_turn / std::max(curvature, 1e-30), least, limit);
   for (int k = 0; k < kDirections / 2; ++k) {
-    const auto least = [&](int i) {
+    const auto shortest = [&](int i) {
       return ends[i] <= ends[(i + 1) % kDirections] &&
              ends[i] <= ends[(i + kDirections - 1) % kDirections];
     };
     const double width = ends[k] + ends[k + kDirections / 2];
-    if (std::isfinite(width) && least(k) && least(k + kDirections / 2)) {
+    if (std::isfinite(width) && shortest(k) && shortest(k + kDirections / 2)) {
       around.size = std::min(
           around.size, std::max(kStripWidths * width, std::min(limit, kLeastStrip * spacing_)));
     }

@@ -1,6 +1,5 @@
 #include "isolux/scene/light_reader.h"
 
-#include <fmt/format.h>
 
 #include "isolux/scene/scene.h"
 
@@ -26,14 +25,6 @@ double read_flux(const Value& value) {
   return flux;
 }
 
-bool can_be_cut(const Value& emission, const Shape& shape) {
-  try {
-    return shape.triangulate(shape.bounds().diagonal()).has_value();
-  } catch (const InputError& error) {
-    emission.fail(fmt::format("this shape can't emit: {}", error.what()));
-  }
-}
-
 }  // namespace
 
 Rgb read_emission(const Value& emission, const Shape& shape) {
@@ -41,11 +32,6 @@ Rgb read_emission(const Value& emission, const Shape& shape) {
   const std::optional<Value> exitance = fields.find("exitance"), flux = fields.find("flux");
   if (exitance.has_value() == flux.has_value()) {
     emission.fail("'emission' must have one of 'exitance' (lm/m2) and 'flux' (lm)");
-  }
-  if (!can_be_cut(emission, shape)) {
-    emission.fail(
-        "this shape can't emit, as it has no division into triangles: use a sphere, "
-        "cylinder, cone, disk, box, parallelogram, polygon or mesh");
   }
   if (exitance && exitance->is_list() && fields.find("color")) {
     exitance->fail("'exitance' in three channels has its colour already: remove 'color'");
