@@ -36,8 +36,8 @@ int run(int argc, char** argv) {
   // Last, since subcommands take over the footer there is.
   program.footer(
       "Each has its own --help. Lengths are in m, angles in degrees.\n"
-      "Exit code: 0 done, 1 the input or the usage is wrong, 2 a fault of isolux, 3 solved\n"
-      "short of the tolerance.");
+      "Exit code: 0 done, 1 the input or the usage is wrong, 2 a fault of isolux,\n"
+      "3 solved, but short of the tolerance.");
   try {
     parse_and_run(program, argc, argv);
     return isolux::kDone;

@@ -93,7 +93,7 @@ CLI::Option* add_preset(CLI::App& command, Options& o) {
 /// How good the solution gets, and what it may cost.
 void add_goal(CLI::App& command, Arguments& a, CLI::Option* preset) {
   add_percentage(command, "--tolerance", a.options.tolerance, 0.01, 100,
-                 "root mean square error of illuminance")
+                 "relative error of illuminance, as root mean square")
       ->excludes(preset);
   add_number(command, "--max-triangles", "N", a.options.max_triangles, std::uint64_t{0},
              std::uint64_t{4'000'000'000}, "refine no further, 0: no bound")
@@ -251,8 +251,8 @@ void add_solve(CLI::App& program) {
       ->option_text("FILE.json");
   command.add_flag("--quiet", a->quiet, "says nothing but errors");
   command.footer(
-      "Ctrl-C ends the solve early and saves what there is. Exit code 3 where that, or a\n"
-      "bound, came before the tolerance was met.");
+      "Ctrl-C ends the solve early and saves what there is. Exit code 3 where that, or\n"
+      "a bound, came before the tolerance was met.");
   command.callback([a] { run(*a); });
 }
 

@@ -236,7 +236,7 @@ class Work(ProgramTest):
         self.succeed("measure", solution, "--points", points, "-o", "out.csv")
         self.assertEqual((self.folder / "out.csv").read_text(), to_stdout)
         rows = list(csv.DictReader(to_stdout.splitlines()))
-        self.assertEqual(list(rows[0]), "x y z nx ny nz Er Eg Eb E".split())
+        self.assertEqual(list(rows[0]), "x y z nx ny nz Er Eg Eb E error".split())
         self.assertEqual(len(rows), 2)
         for row in rows:
             self.assertGreater(float(row["E"]), 0)
@@ -308,6 +308,64 @@ class Terminal(ProgramTest):
         self.assertNotIn("\r", result.stderr)
         result = self.succeed("solve", ROOM, "-o", "a.glb", "--quiet", *SHORT)
         self.assertEqual(result.stderr + result.stdout, "")
+
+
+class Tolerance(ProgramTest):
+    """The default method: no parameter but how good the solution shall be."""
+
+    def test_without_a_parameter(self):
+        result = self.succeed("solve", ROOM, "-o", "a.glb", "--stats", "a.json")
+        self.assertRegex(result.stderr, r"a\.glb: [\d.]+ lx on average, ± [\d.]+ % estimated")
+        statistics = json.loads((self.folder / "a.json").read_text())
+        self.assertTrue(statistics["converged"])
+        self.assertLessEqual(statistics["error"], 0.01)
+        self.assertIn("tolerance met", self.succeed("info", "a.glb").stdout)
+
+        self.write("floor.csv", FLOOR)
+        table = self.succeed("measure", "a.glb", "--points", "floor.csv").stdout
+        for row in csv.DictReader(table.splitlines()):
+            self.assertLess(0, float(row["error"]))
+            self.assertLess(float(row["error"]), 0.05 * float(row["E"]))
+
+    def test_bounds_end_it_with_exit_code_3(self):
+        for bound in ["--time=0.001", "--max-triangles=100", "--max-memory=1"]:
+            with self.subTest(bound=bound):
+                result = self.run_program("solve", ROOM, "-o", "a.glb", "--tolerance", "0.1%", bound)
+                self.assertEqual(result.returncode, 3, result.stderr)
+                self.assertIn("not met", result.stderr)
+                self.assertIn("tolerance", self.succeed("info", "a.glb").stdout)
+
+    def test_the_papers_parameters_are_the_papers(self):
+        self.fail_with(".*--max-edge", "solve", ROOM, "-o", "a.glb", "--max-edge", "0.1")
+        self.fail_with(".*--tolerance", "solve", ROOM, "-o", "a.glb", "--preset", "paper",
+                       "--tolerance", "1")
+        self.fail_with(".*--tolerance", "solve", ROOM, "-o", "a.glb", "--tolerance", "0")
+        self.fail_with(".*--tolerance", "solve", ROOM, "-o", "a.glb", "--tolerance", "1 %")
+
+    def test_goes_on_after_a_kill_as_if_never_stopped(self):
+        goal = ["--tolerance", "0.3", "--quiet"]
+        self.succeed("solve", ROOM, "-o", "whole.glb", *goal)
+        solver = subprocess.Popen(
+            [PROGRAM, "solve", ROOM, "-o", "killed.glb", *goal, "--checkpoint", "a.checkpoint"],
+            cwd=self.folder, stdin=subprocess.DEVNULL)
+        checkpoint = self.folder / "a.checkpoint"
+        deadline = time.monotonic() + 300
+        while not checkpoint.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        solver.kill()
+        solver.wait()
+        self.assertTrue(checkpoint.exists())
+        self.succeed("solve", ROOM, "-o", "rest.glb", *goal, "--resume", "a.checkpoint")
+        self.assertEqual((self.folder / "rest.glb").read_bytes(),
+                         (self.folder / "whole.glb").read_bytes())
+
+        bytes_of = checkpoint.read_bytes()
+        for damaged in [b"", b"x", bytes_of[:-1], bytes_of[:1000], bytes_of + b"x"]:
+            self.write("bad.checkpoint", damaged)
+            self.fail_with(".*bad.checkpoint", "solve", ROOM, "-o", "b.glb", *goal,
+                           "--resume", "bad.checkpoint")
+        self.fail_with(".*other options", "solve", ROOM, "-o", "b.glb", "--seed", "2", *goal,
+                       "--resume", "a.checkpoint")
 
 
 if __name__ == "__main__":

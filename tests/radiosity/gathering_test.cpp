@@ -125,11 +125,11 @@ TEST(Gathering, GoesOnFromACheckpointToTheSameBits) {
   const Scene scene = paper_room();
   std::vector<GatheringState> checkpoints;
   const Solved whole =
-      solve_by_gathering(scene, to_tolerance(0.03),
+      solve_by_gathering(scene, to_tolerance(0.01),
                          {{}, [&](const GatheringState& state) { checkpoints.push_back(state); }});
   ASSERT_GE(checkpoints.size(), 2u);
   for (const GatheringState& checkpoint : {checkpoints.front(), checkpoints.back()}) {
-    const Solved rest = solve_by_gathering(scene, to_tolerance(0.03), {}, checkpoint);
+    const Solved rest = solve_by_gathering(scene, to_tolerance(0.01), {}, checkpoint);
     ASSERT_EQ(rest.mesh.vertices().size(), whole.mesh.vertices().size());
     for (VertexId v = 0; v < rest.mesh.vertices().size(); ++v) {
       EXPECT_EQ(rest.mesh.vertex(v).irradiance, whole.mesh.vertex(v).irradiance);

@@ -54,6 +54,7 @@ cameras:
 )",
                            "small.yaml");
   Options options;
+  options.method = Method::shooting;
   options.rules = {2, 0.001, 0.5};
   options.seed = 18446744073709551615u;
   options.camera = "front";

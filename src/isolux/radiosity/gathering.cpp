@@ -877,7 +877,8 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
 
   // Few points deserve more rays than each of very many vertices.
   constexpr double kFinerGrid = 1.5;
-  const int grid = static_cast<int>(std::lround(kFinerGrid * std::sqrt(solved.gather_rays)));
+  const int grid = std::clamp(
+      static_cast<int>(std::lround(kFinerGrid * std::sqrt(solved.gather_rays))), 1, kFinestGrid);
   std::vector<Illumination> result(receivers.size());
   parallel_for(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<Landing> row(static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid));

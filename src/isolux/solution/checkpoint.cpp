@@ -238,7 +238,9 @@ GatheringState decode(const std::string& bytes, const Scene& scene, const Option
   const json now = circumstances(scene, options);
   for (const char* key : {"version", "scene", "options"}) {
     if (member(root, key) != now[key]) {
-      throw InputError(fmt::format("is of another {}; solve anew without it", key));
+      throw InputError(fmt::format(
+          "is of {}; solve anew without it",
+          std::string(key) == "options" ? "other options" : fmt::format("another {}", key)));
     }
   }
   Triangulation mesh = mesh_from_json(member(root, "mesh"), rules, scene.bounds());
