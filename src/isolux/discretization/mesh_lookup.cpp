@@ -57,11 +57,20 @@ std::size_t hash(VoxelKey key) {
   return static_cast<std::size_t>(key ^ (key >> 29));
 }
 
+/// About the distance of neighbouring vertices, m.
+double mean_spacing(const Triangulation& mesh) {
+  double area = 0;
+  for (const Triangle& triangle : mesh.triangles()) area += triangle.alive ? triangle.area : 0;
+  if (!(area > 0)) return mesh.rules().max_edge;
+  return std::sqrt(area / static_cast<double>(mesh.vertices().size()));
+}
+
 }  // namespace
 
 class MeshLookup::Impl {
  public:
-  explicit Impl(const Triangulation& mesh) : mesh_(mesh), near_(Vec3{}, mesh.rules().max_edge) {
+  explicit Impl(const Triangulation& mesh)
+      : mesh_(mesh), spacing_(mean_spacing(mesh)), near_(Vec3{}, spacing_) {
     collect_vertices();
     collect_triangles();
   }
@@ -97,8 +106,7 @@ class MeshLookup::Impl {
   std::optional<MeshPlace> nearest_vertices(const Vec3& point, const Vec3& normal) const {
     for (const double facing : {double(kFacing), 1e-6}) {
       // Every vertex within the radius is looked at; a wider search can only add farther ones.
-      double radius = mesh_.rules().max_edge;
-      for (; radius < 8 * extent_ + 8 * mesh_.rules().max_edge; radius *= 2) {
+      for (double radius = spacing_; radius < 8 * extent_ + 8 * spacing_; radius *= 2) {
         const auto found = nearest_vertices(point, normal, facing, radius);
         if (found) return found;
       }
@@ -309,6 +317,7 @@ class MeshLookup::Impl {
   };
 
   const Triangulation& mesh_;
+  double spacing_;              // of vertices on average, m
   VertexGrid near_;             // the vertices of living triangles
   double extent_ = 0;           // of the mesh, m
   Vec3 middle_;                 // of the mesh
