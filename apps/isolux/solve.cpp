@@ -93,7 +93,7 @@ CLI::Option* add_preset(CLI::App& command, Options& o) {
 /// How good the solution gets, and what it may cost.
 void add_goal(CLI::App& command, Arguments& a, CLI::Option* preset) {
   add_percentage(command, "--tolerance", a.options.tolerance, 0.01, 100,
-                 "relative error of illuminance, as root mean square")
+                 "root mean square error of illuminance")
       ->excludes(preset);
   add_number(command, "--max-triangles", "N", a.options.max_triangles, std::uint64_t{0},
              std::uint64_t{4'000'000'000}, "refine no further, 0: no bound")

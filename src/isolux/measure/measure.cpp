@@ -4,7 +4,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/radiosity/gather.h"
-#include "isolux/radiosity/gathering.h"
+#include "isolux/radiosity/illumination.h"
 
 namespace isolux {
 namespace {

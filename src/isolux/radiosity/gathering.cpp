@@ -7,10 +7,12 @@
 #include "isolux/core/error.h"
 #include "isolux/core/parallel.h"
 #include "isolux/discretization/cover.h"
+#include "isolux/discretization/living_edges.h"
 #include "isolux/discretization/split_points.h"
 #include "isolux/radiosity/direct_light.h"
 #include "isolux/radiosity/energy.h"
 #include "isolux/radiosity/hemisphere_gather.h"
+#include "isolux/radiosity/illumination.h"
 #include "isolux/radiosity/spatial_order.h"
 #include "isolux/radiosity/stopwatch.h"
 
@@ -49,47 +51,11 @@ constexpr double kUsualBend = 0.2;
 constexpr double kUsualCurve = 0.25;
 
 // Rays over a hemisphere: cells a side.
-constexpr int kCoarsestGrid = 8, kFinestGrid = 256;
+constexpr int kCoarsestGrid = 8;
 
 // What a triangle sends is right in the mean for light that is quadratic along its sides; of the
 // error that linear interpolation would make, this part may be left.
 constexpr double kBiasLeft = 0.25;
-
-// 95 of 100 errors are smaller than so many standard deviations.
-constexpr double kConfidence = 2;
-
-/// An edge of living triangles, a < b.
-struct Edge {
-  VertexId a = 0, b = 0;
-  double area = 0;  // of its triangles, m²
-
-  std::uint64_t key() const { return std::uint64_t{a} << 32 | b; }
-};
-
-/// Every edge of a living triangle once, in ascending order of its ends.
-std::vector<Edge> living_edges(const Triangulation& mesh) {
-  std::vector<Edge> edges;
-  for (const Triangle& triangle : mesh.triangles()) {
-    if (!triangle.alive) continue;
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(triangle.vertices[k], triangle.vertices[(k + 1) % 3]);
-      edges.push_back({a, b, triangle.area});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
-    return std::pair(e.key(), e.area) < std::pair(f.key(), f.area);
-  });
-  std::size_t n = 0;
-  for (const Edge& edge : edges) {
-    if (n > 0 && edges[n - 1].key() == edge.key()) {
-      edges[n - 1].area += edge.area;
-    } else {
-      edges[n++] = edge;
-    }
-  }
-  edges.resize(n);
-  return edges;
-}
 
 class Gathering {
  public:
@@ -426,8 +392,9 @@ class Gathering {
   int grid_for(double level) const {
     const double wanted = kSamplingShare * level * mean_irradiance();
     if (!(state_.deviation > wanted)) return state_.grid;
-    return static_cast<int>(std::min<double>(
-        std::ceil(state_.grid * std::pow(state_.deviation / wanted, 2.0 / 3)), kFinestGrid));
+    return static_cast<int>(
+        std::min<double>(std::ceil(state_.grid * std::pow(state_.deviation / wanted, 2.0 / 3)),
+                         HemisphereGather::kFinestGrid));
   }
 
   /// New links for the vertices that gather, grid² rays each, over the mesh as it is now.
@@ -858,41 +825,6 @@ void gather_radiosity(GatheringState& state, const RayCaster& rays, const Option
     throw InputError("the scene has no light: give an object an 'emission'");
   }
   Gathering(state, rays, options, callbacks).run();
-}
-
-std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& rays,
-                                    const Statistics& solved, std::span<const Receiver> receivers,
-                                    std::uint64_t seed) {
-  constexpr std::size_t kGrain = 64;
-  const DirectLight lights(rays);
-  const HemisphereGather hemisphere(rays, mesh, lights.separate());
-  std::vector<Rgb> irradiance, errors;
-  for (const Vertex& vertex : mesh.vertices()) {
-    irradiance.push_back(vertex.mean_irradiance);
-    errors.push_back(gray(vertex.error));
-  }
-  std::vector<Rgb> direct(receivers.size());
-  std::vector<double> deviation(receivers.size());
-  lights.irradiance(receivers, direct, deviation);
-
-  // Few points deserve more rays than each of very many vertices.
-  constexpr double kFinerGrid = 1.5;
-  const int grid = std::clamp(
-      static_cast<int>(std::lround(kFinerGrid * std::sqrt(solved.gather_rays))), 1, kFinestGrid);
-  std::vector<Illumination> result(receivers.size());
-  parallel_for(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Landing> row(static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid));
-    for (std::size_t i = begin; i < end; ++i) {
-      hemisphere.trace(receivers[i], grid, seed, i, row);
-      const Gathered indirect = hemisphere.gather_with_error(row, irradiance);
-      result[i].irradiance = direct[i] + indirect.irradiance;
-      const double emitters = luminance(hemisphere.reflected(row, errors));
-      result[i].error =
-          std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), emitters) +
-          solved.emitter_error;
-    }
-  });
-  return result;
 }
 
 }  // namespace isolux

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "isolux/radiosity/gathering_state.h"
 #include "isolux/radiosity/options.h"
-#include "isolux/radiosity/statistics.h"
-#include "isolux/radiosity/visibility.h"
 #include "isolux/raycast/ray_caster.h"
 
 namespace isolux {
@@ -27,18 +22,5 @@ void gather_radiosity(GatheringState& state, const RayCaster& rays, const Option
 /// The rules of a triangulation that gather_radiosity() refines: δ goes with the size of the scene,
 /// and there is no least area.
 Rules gathering_rules(const Scene& scene);
-
-/// Light on a point, and how wrong it may be.
-struct Illumination {
-  Rgb irradiance;    ///< lx
-  double error = 0;  ///< of its luminance, lx: 95 in 100 are less wrong
-};
-
-/// What the receivers gather from a mesh that gather_radiosity() has lit, `solved` being what it
-/// returned: straight from the lights, and by reflection with 2¼ times as many rays as its vertices used.
-/// Neighbours in the list should be neighbours in space.
-std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& rays,
-                                    const Statistics& solved, std::span<const Receiver> receivers,
-                                    std::uint64_t seed);
 
 }  // namespace isolux

@@ -41,6 +41,9 @@ struct Gathered {
 /// hemisphere (Malley 1988): the density goes with the cosine, and all rays weigh the same.
 class HemisphereGather {
  public:
+  /// The most cells that a solve asks for.
+  static constexpr int kFinestGrid = 256;
+
   /// `separate`, by object: 1 where its emission is left out here because it is gathered as a
   /// light (separate_lights() of direct_light.h). `rays` and `mesh` must outlive this; triangles
   /// that the mesh gets later are not seen, but vertices stay valid.
