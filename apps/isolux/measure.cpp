@@ -43,7 +43,7 @@ void add_measure(CLI::App& program) {
   command.add_option("--points", a->points, "with the columns x,y,z,nx,ny,nz, in m")
       ->required()
       ->option_text("POINTS.csv");
-  command.add_option("-o,--output", a->output, "those and Er,Eg,Eb,E, in lx [stdout]")
+  command.add_option("-o,--output", a->output, "those and Er,Eg,Eb,E,error in lx [stdout]")
       ->option_text("OUT.csv");
   command.callback([a] { run(*a); });
 }

@@ -39,6 +39,17 @@ double lux_at(const Solution& solution, const Vec3& position, const Vec3& normal
   return measure(solution, {&point, 1}).front().illuminance();
 }
 
+/// The illuminance at each point of a case that names its points, to within relative + absolute,
+/// lx.
+void expect_points(const Solution& solution, const json& data, double relative, double absolute) {
+  for (const json& point : data.at("points")) {
+    const double expected = data.at("expected").at("values").at(std::string(point.at("id")));
+    EXPECT_NEAR(lux_at(solution, vec3(point.at("pos")), vec3(point.at("normal"))), expected,
+                relative * expected + absolute)
+        << point;
+  }
+}
+
 constexpr const char* kRoomMaterials = R"(materials:
   wall: {{reflectance: {}}}
   black: {{reflectance: 0}}
@@ -56,12 +67,7 @@ TEST(Validation, Cie171AreaSource) {
     emission: {exitance: 3141.592653589793}
 )"),
                                    0.01);
-  for (const json& point : data.at("points")) {
-    const double expected = data.at("expected").at("values").at(std::string(point.at("id")));
-    EXPECT_NEAR(lux_at(solution, vec3(point.at("pos")), vec3(point.at("normal"))), expected,
-                0.002 * expected)
-        << point;
-  }
+  expect_points(solution, data, 0.002, 0);
 }
 
 /// S2 of the case as an emitter, in front of black walls, with what stands between.
@@ -78,12 +84,7 @@ TEST(Validation, Cie171DiffuseReflection) {
                          "  - {shape: {parallelogram: {corner: [0, 0, 3], u: [0, 4, 0], v: [4, 0, "
                          "0]}}, material: black, sides: front}\n"),
       0.01);
-  for (const json& point : data.at("points")) {
-    const double expected = data.at("expected").at("values").at(std::string(point.at("id")));
-    EXPECT_NEAR(lux_at(solution, vec3(point.at("pos")), vec3(point.at("normal"))), expected,
-                0.005 * expected)
-        << point;
-  }
+  expect_points(solution, data, 0.005, 0);
 }
 
 TEST(Validation, Cie171Obstruction) {
@@ -94,12 +95,7 @@ TEST(Validation, Cie171Obstruction) {
                          "  - {shape: {box: {lower: [0, 2.5, 0], upper: [4, 2.7, 1]}}, material: "
                          "black}\n"),
       0.01);
-  for (const json& point : data.at("points")) {
-    const double expected = data.at("expected").at("values").at(std::string(point.at("id")));
-    EXPECT_NEAR(lux_at(solution, vec3(point.at("pos")), vec3(point.at("normal"))), expected,
-                0.005 * expected + 0.01)
-        << point;
-  }
+  expect_points(solution, data, 0.005, 0.01);
 }
 
 /// A cube of 4 m whose only light is a point in the middle: a ball of 1 cm stands for it.

@@ -9,7 +9,7 @@
 
 #include "isolux/core/parallel.h"
 #include "isolux/core/random.h"
-#include "support/scenes.h"
+#include "support/penumbrae.h"
 
 namespace isolux {
 namespace {
@@ -29,53 +29,26 @@ Lit lit(const Scene& scene, const Receiver& receiver) {
 
 Lit lit_floor(const Scene& scene, double x) { return lit(scene, {{x, 0, 0}, {0, 0, 1}}); }
 
-const std::string kMaterials =
-    "materials: {black: {reflectance: 0}, grey: {reflectance: 0.5}}\nobjects:\n";
-const std::string kSquare =
-    "  - {shape: {parallelogram: {corner: [-0.5, -0.5, 2], u: [0, 1, 0], v: [1, 0, 0]}}, "
-    "material: black, sides: front, emission: {exitance: 1}}\n";
-const std::string kDisk =
-    "  - {shape: {disk: {center: [0, 0, 2], normal: [0, 0, -1], radius: 0.5}}, material: black, "
-    "sides: front, emission: {exitance: 1}}\n";
-const std::string kFarDisk =
-    "  - {shape: {disk: {center: [0, 0, 4], normal: [0, 0, -1], radius: 1}}, material: black, "
-    "sides: front, emission: {exitance: 1}}\n";
-const std::string kHalfPlane =
-    "  - {shape: {parallelogram: {corner: [-20, -20, 1], u: [20, 0, 0], v: [0, 40, 0]}}, "
-    "material: black}\n";
-const std::string kBlocker =
-    "  - {shape: {disk: {center: [0, 0, 2], normal: [0, 0, 1], radius: 0.3}}, material: black}\n";
-
 /// Every point of a case within 0.15 % of the irradiance of the light seen whole, and within four
 /// standard deviations.
-void expect_case(const std::string& file, const Scene& shadowed, const Scene& open) {
+void expect_case(const PenumbraCase& penumbra) {
   ISOLUX_NEED_SHARED();
-  std::ifstream in(shared_dir() / "validation/cases" / file);
-  const auto values = nlohmann::json::parse(in).at("expected").at("values");
+  const auto values = true_values(penumbra);
   ASSERT_GE(values.size(), 8u);
-  for (const auto& [x, expected] : values.items()) {
-    const Lit found = lit_floor(shadowed, std::stod(x));
-    const double whole = lit_floor(open, std::stod(x)).irradiance;
-    EXPECT_NEAR(found.irradiance, expected.get<double>(), 0.0015 * whole) << file << ", x = " << x;
-    EXPECT_NEAR(found.irradiance, expected.get<double>(), 4 * found.error + 1e-4 * whole)
-        << file << ", x = " << x;
+  for (const auto& [x, expected] : values) {
+    const Lit found = lit_floor(penumbra.shadowed(), x);
+    const double whole = lit_floor(penumbra.open(), x).irradiance;
+    EXPECT_NEAR(found.irradiance, expected, 0.0015 * whole) << penumbra.file << ", x = " << x;
+    EXPECT_NEAR(found.irradiance, expected, 4 * found.error + 1e-4 * whole)
+        << penumbra.file << ", x = " << x;
   }
 }
 
-TEST(DirectLight, PenumbraOfASquareBehindAStraightEdge) {
-  expect_case("penumbra_square_halfplane.json", scene_of(kMaterials + kSquare + kHalfPlane),
-              scene_of(kMaterials + kSquare));
-}
+TEST(DirectLight, PenumbraOfASquareBehindAStraightEdge) { expect_case(kSquareBehindEdge); }
 
-TEST(DirectLight, PenumbraOfADiskBehindAStraightEdge) {
-  expect_case("penumbra_disc_halfplane.json", scene_of(kMaterials + kDisk + kHalfPlane),
-              scene_of(kMaterials + kDisk));
-}
+TEST(DirectLight, PenumbraOfADiskBehindAStraightEdge) { expect_case(kDiskBehindEdge); }
 
-TEST(DirectLight, PenumbraOfADiskBehindADiskInsideItsOutline) {
-  expect_case("annular_occluder_disc.json", scene_of(kMaterials + kFarDisk + kBlocker),
-              scene_of(kMaterials + kFarDisk));
-}
+TEST(DirectLight, PenumbraOfADiskBehindADiskInsideItsOutline) { expect_case(kDiskBehindDisk); }
 
 TEST(DirectLight, AStripOfAnEighthOfTheLightCastsItsShadow) {
   // Just under a square light of 10 cm runs a strip 1.5 cm wide, wherever it may be.

@@ -1,12 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "isolux/radiosity/gather.h"
 #include "isolux/radiosity/options.h"
 #include "isolux/radiosity/solve.h"
-#include "support/scenes.h"
+#include "support/penumbrae.h"
 
 namespace isolux {
 namespace {
@@ -23,50 +20,23 @@ double irradiance_at(const Scene& scene, double x, int subdivisions) {
 }
 
 /// Every point of a case within 0.5 % of the irradiance of the light seen whole.
-void expect_case(const std::string& file, const Scene& shadowed, const Scene& open) {
+void expect_case(const PenumbraCase& penumbra) {
   ISOLUX_NEED_SHARED();
-  std::ifstream in(shared_dir() / "validation/cases" / file);
-  const auto values = nlohmann::json::parse(in).at("expected").at("values");
+  const auto values = true_values(penumbra);
   ASSERT_GE(values.size(), 8u);
-  for (const auto& [x, expected] : values.items()) {
-    const double at = std::stod(x);
-    const double whole = irradiance_at(open, at, 0);
-    EXPECT_NEAR(irradiance_at(shadowed, at, Options{}.subdivisions), expected.get<double>(),
+  for (const auto& [x, expected] : values) {
+    const double whole = irradiance_at(penumbra.open(), x, 0);
+    EXPECT_NEAR(irradiance_at(penumbra.shadowed(), x, Options{}.subdivisions), expected,
                 0.005 * whole)
-        << file << " at x = " << x;
+        << penumbra.file << " at x = " << x;
   }
 }
 
-const std::string kMaterials = "materials: {black: {reflectance: 0}}\nobjects:\n";
-const std::string kSquare =
-    "  - {shape: {parallelogram: {corner: [-0.5, -0.5, 2], u: [0, 1, 0], v: [1, 0, 0]}}, "
-    "material: black, sides: front, emission: {exitance: 1}}\n";
-const std::string kDisk =
-    "  - {shape: {disk: {center: [0, 0, 2], normal: [0, 0, -1], radius: 0.5}}, material: black, "
-    "sides: front, emission: {exitance: 1}}\n";
-const std::string kFarDisk =
-    "  - {shape: {disk: {center: [0, 0, 4], normal: [0, 0, -1], radius: 1}}, material: black, "
-    "sides: front, emission: {exitance: 1}}\n";
-const std::string kHalfPlane =
-    "  - {shape: {parallelogram: {corner: [-20, -20, 1], u: [20, 0, 0], v: [0, 40, 0]}}, "
-    "material: black}\n";
-const std::string kBlocker =
-    "  - {shape: {disk: {center: [0, 0, 2], normal: [0, 0, 1], radius: 0.3}}, material: black}\n";
+TEST(Penumbra, OfASquareLightBehindAStraightEdge) { expect_case(kSquareBehindEdge); }
 
-TEST(Penumbra, OfASquareLightBehindAStraightEdge) {
-  expect_case("penumbra_square_halfplane.json", scene_of(kMaterials + kSquare + kHalfPlane),
-              scene_of(kMaterials + kSquare));
-}
+TEST(Penumbra, OfADiskLightBehindAStraightEdge) { expect_case(kDiskBehindEdge); }
 
-TEST(Penumbra, OfADiskLightBehindAStraightEdge) {
-  expect_case("penumbra_disc_halfplane.json", scene_of(kMaterials + kDisk + kHalfPlane),
-              scene_of(kMaterials + kDisk));
-}
-
-TEST(Penumbra, OfADiskLightBehindADiskInsideItsOutline) {
-  expect_case("annular_occluder_disc.json", scene_of(kMaterials + kFarDisk + kBlocker),
-              scene_of(kMaterials + kFarDisk));
-}
+TEST(Penumbra, OfADiskLightBehindADiskInsideItsOutline) { expect_case(kDiskBehindDisk); }
 
 TEST(Penumbra, AStripNarrowerThanTheLightsTrianglesCastsItsShadow) {
   // A light of 2 × 2 triangles of 10 cm; a strip 4 cm wide just under it hides that much of it.

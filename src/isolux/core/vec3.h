@@ -40,6 +40,16 @@ inline Vec3 normalized(const Vec3& a) {
   return l > 0 ? a / l : a;
 }
 
+/// The unit direction of `a` in the plane that the unit vector `normal` stands on.
+inline Vec3 tangential(const Vec3& a, const Vec3& normal) {
+  return normalized(a - normal * dot(a, normal));
+}
+
+/// From 0 to π, rad.
+inline double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
 inline bool is_finite(const Vec3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

@@ -159,8 +159,7 @@ bool Weaver::mend_at(VertexId a, VertexId b) {
   for (const std::uint32_t other : ids) {
     const VertexId c = id(other);
     if (c == a || c == b || dot(at(c) - middle, outward) <= 1e-3 * along) continue;
-    const Vec3 ca = at(a) - at(c), cb = at(b) - at(c);
-    const double angle = std::atan2(length(cross(ca, cb)), dot(ca, cb));
+    const double angle = angle_between(at(a) - at(c), at(b) - at(c));
     if (angle > 0.1) choices.emplace_back(-angle, c);
   }
   std::sort(choices.begin(), choices.end());

@@ -21,14 +21,6 @@ constexpr double kApart = 0.85;
 constexpr double kFromCrease = 0.5;
 constexpr int kDirections = 8;
 
-Vec3 tangential(const Vec3& d, const Vec3& normal) {
-  return normalized(d - normal * dot(d, normal));
-}
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(length(cross(a, b)), dot(a, b));
-}
-
 }  // namespace
 
 CoverPoints::CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed)

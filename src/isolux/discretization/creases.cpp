@@ -16,10 +16,6 @@ constexpr double kLeastStep = 0.02;
 // Corners this close together, in sizes, are one, where they point the same way.
 constexpr double kSame = 0.05;
 
-Vec3 tangential(const Vec3& d, const Vec3& normal) {
-  return normalized(d - normal * dot(d, normal));
-}
-
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double t = std::clamp(dot(p - a, ab) / std::max(length_squared(ab), 1e-300), 0.0, 1.0);
@@ -179,7 +175,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       if (!outward) return 10;
       next.outward = *outward;
       const Vec3 before = tangential(from.outward, next.point.normal);
-      return std::atan2(length(cross(before, next.outward)), dot(before, next.outward));
+      return angle_between(before, next.outward);
     };
     const auto along_at = [&](const CreasePoint& p) {
       const Vec3 left = left_of(p.point.normal, p.outward);

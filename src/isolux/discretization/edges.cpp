@@ -1,4 +1,4 @@
-#include <set>
+#include <numbers>
 
 #include "isolux/discretization/triangulation.h"
 
@@ -12,10 +12,6 @@ VertexId opposite(const Triangle& triangle, VertexId a, VertexId b) {
     if (corner != a && corner != b) return corner;
   }
   return v[0];
-}
-
-double angle_at(const Vec3& p, const Vec3& a, const Vec3& b) {
-  return std::atan2(length(cross(a - p, b - p)), dot(a - p, b - p));
 }
 
 }  // namespace
@@ -56,7 +52,6 @@ bool Triangulation::may_be_triangle(VertexId a, VertexId b, VertexId c) const {
 }
 
 bool Triangulation::flip(VertexId a, VertexId b) {
-  constexpr double kPi = 3.14159265358979323846;
   // Four vertices on a circle have no wrong diagonal.
   constexpr double kSlack = 1e-9;
   const auto left = triangle_at(a, b), right = triangle_at(b, a);
@@ -66,7 +61,9 @@ bool Triangulation::flip(VertexId a, VertexId b) {
   const VertexId c = opposite(first, a, b), d = opposite(second, a, b);
   if (c == d || has_triangle(c, d)) return false;
   const auto at = [&](VertexId v) -> const Vec3& { return vertices_[v].position; };
-  if (angle_at(at(c), at(a), at(b)) + angle_at(at(d), at(a), at(b)) <= kPi + kSlack) return false;
+  const double angle_c = angle_between(at(a) - at(c), at(b) - at(c));
+  const double angle_d = angle_between(at(a) - at(d), at(b) - at(d));
+  if (angle_c + angle_d <= std::numbers::pi + kSlack) return false;
   if (!may_be_triangle(c, d, b) || !may_be_triangle(d, c, a)) return false;
 
   remove(*left), remove(*right);

@@ -47,7 +47,7 @@ std::optional<SurfacePoint> point_over_edge(const Triangulation& mesh, const Ray
   pulled.position -= outward * (kPull * along);
   const auto inside = surface_at(walk, pulled, 0.3 * along);
   if (!inside) return surface_at(walk, middle, 0.3 * along);
-  const Vec3 ahead = normalized(outward - inside->normal * dot(outward, inside->normal));
+  const Vec3 ahead = tangential(outward, inside->normal);
   const double far = 2 * kPull * along;
   if (walk.step(*inside, inside->position + ahead * far)) {
     return surface_at(walk, middle, 0.3 * along);  // the edge of a hole in the mesh

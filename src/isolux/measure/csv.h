@@ -21,7 +21,8 @@ std::vector<MeasurePoint> read_points(const std::string& text, const std::string
 /// The same from a file, at most 1 GiB long.
 std::vector<MeasurePoint> load_points(const std::filesystem::path& path);
 
-/// CSV with the columns x,y,z,nx,ny,nz (m) and Er,Eg,Eb,E (lx), nine significant digits.
+/// CSV with the columns x,y,z,nx,ny,nz (m) and Er,Eg,Eb,E (lx), nine significant digits,
+/// and error (lx), three digits, empty where it is not known.
 std::string measurements_to_csv(std::span<const Measurement> measurements);
 
 }  // namespace isolux

@@ -78,7 +78,7 @@ class Gathering {
       refine_indirect();
       transfer();
       estimate();
-      if (stopped_ || full() || !next_level()) break;
+      if (stopped_ || !next_level() || full()) break;
     }
     finish();
   }
@@ -104,11 +104,15 @@ class Gathering {
   /// Of all objects, lm: of those whose area is not known, as the cover has them.
   double emitted_flux() const {
     const auto& objects = rays_.scene().objects;
+    std::vector<char> area_known;
     double flux = 0;
-    for (const Object& object : objects) flux += luminous_flux(object);
+    for (const Object& object : objects) {
+      area_known.push_back(!object.emits() || surface_area(*object.shape));
+      flux += luminous_flux(object);
+    }
     for (const Triangle& triangle : mesh_.triangles()) {
-      const Object& object = objects[mesh_.vertex(triangle.vertices[0]).surface.object];
-      if (!triangle.alive || surface_area(*object.shape)) continue;
+      const std::uint32_t object = mesh_.vertex(triangle.vertices[0]).surface.object;
+      if (!triangle.alive || area_known[object]) continue;
       flux += luminance(triangle.emission) * triangle.area;
     }
     return flux;

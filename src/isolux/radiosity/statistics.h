@@ -6,7 +6,7 @@ namespace isolux {
 
 /// What a solve did. Fluxes are luminous (lm), the colour channels weighted to luminance.
 struct Statistics {
-  int iterations = 0;
+  int iterations = 0;        ///< shots; of gathering: levels of tolerance
   bool converged = false;    ///< the tolerance was met, or (shooting) the unshot power fell below
                              ///< Options::stop_at_unshot
   bool interrupted = false;  ///< stopped by the caller before that
@@ -16,11 +16,11 @@ struct Statistics {
   std::uint64_t extended = 0;  ///< vertices born by extension (§3.2.2)
   std::uint64_t split = 0;     ///< vertices born by splits (§3.2.5)
   std::uint64_t refinement_rays = 0;
-  std::uint64_t shadow_rays = 0;
-  double emitted_flux = 0;      ///< lm
-  double unshot_flux = 0;       ///< lm
-  double ambient_exitance = 0;  ///< lm/m²: Cohen's (1988) ambient term of what is unshot
-  double mesh_area = 0;         ///< m²
+  std::uint64_t shadow_rays = 0;  ///< of shooting; gathering does not count them
+  double emitted_flux = 0;        ///< lm
+  double unshot_flux = 0;         ///< lm
+  double ambient_exitance = 0;    ///< lm/m²: Cohen's (1988) ambient term of what is unshot
+  double mesh_area = 0;           ///< m²
 
   // Of gathering alone.
   int gather_rays = 0;          ///< over the hemisphere of each point that gathers
