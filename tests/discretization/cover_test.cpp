@@ -54,7 +54,7 @@ Scene scene_for(const Case& c) {
 }
 
 Triangulation covered(const RayCaster& rays, double spacing) {
-  Triangulation mesh({2.2 * spacing, 1e-9, 0.5235987755982988}, rays.scene().bounds());
+  Triangulation mesh({2.2 * spacing, 1e-9, 0.77}, rays.scene().bounds());
   cover(mesh, rays, {spacing, 1});
   return mesh;
 }

@@ -151,7 +151,7 @@ Hit Frustum::hit(const Line& line, const Crossing& crossing) const {
     return {t, point, at_end ? frame_.n : -frame_.n, crossing.face};
   }
   const double z = std::clamp(p.z, 0.0, length_);
-  const double r = std::hypot(p.x, p.y), radius = start_radius_ + slope_ * z;
+  const double r = std::sqrt(p.x * p.x + p.y * p.y), radius = start_radius_ + slope_ * z;
   if (!(r > 0)) {  // the tip of a cone has no normal: take the axis
     return {t, start_ + frame_.n * z, slope_ > 0 ? -frame_.n : frame_.n, 0};
   }
@@ -225,9 +225,9 @@ void Frustum::occlude(const SegmentBlock& segments, double t_max,
 bool Frustum::contains(const Vec3& point) const {
   if (!capped_) return false;
   const Vec3 p = point - start_;
-  const double z = dot(p, frame_.n);
-  return z > 0 && z < length_ &&
-         std::hypot(dot(p, frame_.u), dot(p, frame_.v)) < start_radius_ + slope_ * z;
+  const double z = dot(p, frame_.n), x = dot(p, frame_.u), y = dot(p, frame_.v);
+  const double radius = start_radius_ + slope_ * z;
+  return z > 0 && z < length_ && x * x + y * y < radius * radius;
 }
 
 std::optional<double> Frustum::area() const {

@@ -97,13 +97,16 @@ void Torus::intersect(const Ray& ray, Hits& hits) const {
   const Vec3 d = to_local(direction);
   const double oo = length_squared(o);
   if (!(oo < 1)) return;  // passes the sphere around the torus
+  // Passes it above, or below, all the way through the sphere.
+  const double to_rim = std::abs(d.z) * std::sqrt(1 - oo);
+  if (std::abs(o.z) - to_rim > r * (1 + 1e-9)) return;
 
   const double k = oo + R * R - r * r;
   const double c2 = 2 * k - 4 * R * R * (d.x * d.x + d.y * d.y);
   const double c1 = -8 * R * R * (o.x * d.x + o.y * d.y);
   const auto g = [&](double s) {
     const Vec3 p = o + d * s;
-    const double ring = std::hypot(p.x, p.y);
+    const double ring = std::sqrt(p.x * p.x + p.y * p.y);
     const double away = ring - R;
     const double ring_slope = ring > 0 ? (p.x * d.x + p.y * d.y) / ring : 0;
     return Value{away * away + (p.z - r) * (p.z + r), 2 * (away * ring_slope + p.z * d.z)};

@@ -261,7 +261,8 @@ class Group {
       starts.include(receivers_[i].point);
     }
     if (facing_.empty()) return;
-    const bool clear = rays_.clear(starts, light_.bounds);
+    blockers_ = rays_.blockers(starts, light_.bounds);
+    const bool clear = blockers_.none();
     if (!clear) {
       const std::size_t n = light_.points.size();
       open_.assign(facing_.size() * n, 0);
@@ -302,7 +303,7 @@ class Group {
       }
     }
     blocked_.resize(segments_.size());
-    rays_.occluded(segments_, blocked_);
+    rays_.occluded(blockers_, segments_, blocked_);
     std::size_t ray = 0;
     for (const Index p : points) {
       for (std::size_t k = 0; k < facing_.size(); ++k) open(k)[p] = !blocked_[ray++];
@@ -350,7 +351,7 @@ class Group {
       for (const Crossing& c : crossings_) {
         segments_.push_back({start(c.receiver), light_.at(light_.lines[c.line], c.s + step)});
       }
-      rays_.occluded(segments_, blocked_);
+      rays_.occluded(blockers_, segments_, blocked_);
       for (std::size_t i = 0; i < crossings_.size(); ++i) {
         Crossing& c = crossings_[i];
         const bool as_start =
@@ -380,7 +381,7 @@ class Group {
       for (const Bow& bow : bows_) {
         segments_.push_back({start(bow.receiver), bow.middle + bow.outward * bow.s});
       }
-      rays_.occluded(segments_, blocked_);
+      rays_.occluded(blockers_, segments_, blocked_);
       for (std::size_t i = 0; i < bows_.size(); ++i) {
         const bool as_tip = (blocked_[i] == 0) == bows_[i].odd_seen;
         bows_[i].s += as_tip ? step / 2 : -step / 2;
@@ -520,6 +521,7 @@ class Group {
   std::vector<Crossing> crossings_;
   std::vector<double> bow_;  // by receiver, then triangle: what the edge's bow adds, in parts of it
   std::vector<Bow> bows_;
+  Blockers blockers_;  // that may stand between the group and the light
   std::vector<Segment> segments_;
   std::vector<std::uint8_t> blocked_;
 };

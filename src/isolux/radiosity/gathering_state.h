@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <unordered_map>
@@ -18,19 +18,32 @@ namespace isolux {
 struct VertexLight {
   Rgb direct, indirect;                                 // lx
   double direct_deviation = 0, indirect_deviation = 0;  // σ of their luminance, lx
-  double bend = 0;                                      // what interpolating E_i may have cost, lx
+  /// What interpolating E_i may have cost, lx: here, and with what its parents have of it.
+  double own_bend = 0, bend = 0;
   double escaped = 0;                 // part of the hemisphere from where no light can come back
   double excess = 0;                  // by how much interpolation around it is too bright, lx
-  double closeness = 0;               // mean of 1 / distance of what is seen, 1/m
-  std::array<VertexId, 2> parents{};  // the ends of the edge that it was born on
-  std::vector<Landing> row;           // where it gathers; empty: E_i is the mean of the parents'
-
-  bool gathers() const { return !row.empty(); }
+  double glimpse = 0, glimpse_deviation = 0;  // E_i's luminance by few rays, and its σ, lx
+  MeshPlace among;                    // the vertices that E_i is interpolated from if it does not
+                                      // gather: those it lies among, all of them less deep
+  std::uint32_t depth = 0;            // 0: it has none, and gathers
+  bool gathers = false;
+  std::vector<Landing> row;           // where it gathers; few where it does not, for a glimpse
 };
 
 /// What gathering knows between two of its rounds: enough to go on from there.
 struct GatheringState {
   explicit GatheringState(Triangulation triangulation) : mesh(std::move(triangulation)) {}
+
+  /// Lets vertex v lie among others, if any weighs more than 0.
+  void give_parents(VertexId v, const MeshPlace& among) {
+    light[v].among = among;
+    light[v].depth = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (among.weights[k] > 0) {
+        light[v].depth = std::max(light[v].depth, light[among.vertices[k]].depth + 1);
+      }
+    }
+  }
 
   Triangulation mesh;
   std::vector<VertexLight> light;  // by vertex
@@ -44,6 +57,7 @@ struct GatheringState {
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
   double bend_scale = 1;  // what is foreseen of the errors of interpolating E_i is right times this
   double bias = 0;        // mean of direct_error, lx
+  Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
   double deviation = 0;   // root mean square of σ, lx
   Statistics statistics;
 };

@@ -124,8 +124,8 @@ std::vector<Landing> HemisphereGather::trace(std::span<const Receiver> receivers
 
 Rgb HemisphereGather::radiosity(const Landing& landing, std::span<const Rgb> irradiance) const {
   const Surface& surface = surfaces_[landing.surface];
-  if (surface.reflectance == Rgb{}) return surface.emission;
-  const double w1 = landing.weights[0] / kUnit, w2 = landing.weights[1] / kUnit;
+  constexpr double kWeight = 1 / kUnit;
+  const double w1 = landing.weights[0] * kWeight, w2 = landing.weights[1] * kWeight;
   const auto& [a, b, c] = landing.vertices;
   const Rgb received = irradiance[a] * (1 - w1 - w2) + irradiance[b] * w1 + irradiance[c] * w2;
   return surface.emission + surface.reflectance * received;

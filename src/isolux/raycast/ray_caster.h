@@ -46,7 +46,7 @@ class Blockers {
 
  private:
   friend class RayCaster;
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kMost = 16;
   std::array<std::uint32_t, kMost> objects_{};
   std::size_t count_ = 0;
   bool many_ = false;

@@ -46,9 +46,10 @@ struct PackedTriangle {
 
 struct PackedLight {
   Rgb direct, indirect;
-  double direct_deviation = 0, indirect_deviation = 0, bend = 0, escaped = 0, excess = 0,
-         closeness = 0;
-  std::array<VertexId, 2> parents{};
+  double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0, excess = 0,
+         glimpse = 0, glimpse_deviation = 0;
+  MeshPlace among;
+  std::uint32_t depth = 0, gathers = 0;
   std::uint64_t landings = 0;
 };
 
@@ -67,6 +68,9 @@ void for_each_scalar(State& state, F&& f) {
   f("bend_scale", state.bend_scale);
   f("bias", state.bias);
   f("deviation", state.deviation);
+  f("balance_r", state.balance.r);
+  f("balance_g", state.balance.g);
+  f("balance_b", state.balance.b);
 }
 
 template <typename T>
@@ -166,8 +170,9 @@ json state_to_json(const GatheringState& state) {
   std::vector<PackedLight> lights;
   std::vector<Landing> landings;
   for (const VertexLight& l : state.light) {
-    lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.bend,
-                      l.escaped, l.excess, l.closeness, l.parents, l.row.size()});
+    lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend, l.bend,
+                      l.escaped, l.excess, l.glimpse,
+                      l.glimpse_deviation, l.among, l.depth, l.gathers, l.row.size()});
     landings.insert(landings.end(), l.row.begin(), l.row.end());
   }
   put(object, "light", lights);
@@ -199,13 +204,19 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   }
   std::size_t next = 0;
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
-    if (std::max(p.parents[0], p.parents[1]) >= vertex_count) damaged("light");
-    state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.bend,
-                           p.escaped, p.excess, p.closeness, p.parents,
+    state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.own_bend, p.bend,
+                           p.escaped, p.excess, p.glimpse, p.glimpse_deviation, p.among, p.depth, p.gathers != 0,
                            take(landings, next, p.landings, "landings")});
   }
   state.sent = get<Rgb>(object, "sent");
   if (state.light.size() != vertex_count) damaged("light");
+  for (const VertexLight& l : state.light) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = l.among.vertices[k];
+      if (v >= vertex_count || !std::isfinite(l.among.weights[k])) damaged("light");
+      if (l.among.weights[k] != 0 && state.light[v].depth >= l.depth) damaged("light");
+    }
+  }
   if (state.sent.size() != vertex_count) damaged("sent");
   state.direct_error = get_errors(object, "direct_error");
   state.indirect_error = get_errors(object, "indirect_error");

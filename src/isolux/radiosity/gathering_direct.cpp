@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+
+#include "isolux/discretization/split_points.h"
+#include "isolux/radiosity/gathering_procedure.h"
+#include "isolux/radiosity/spatial_order.h"
+
+namespace isolux {
+namespace {
+
+// The part of the tolerance that interpolation of E_d may cost.
+constexpr double kDirectShare = 0.55;
+
+// A round of splits takes on the worst edges, which make up this part of the estimated error
+// squared: the bulk criterion of Dörfler (1996).
+constexpr double kBulk = 0.7;
+
+}  // namespace
+
+/// E_d of the vertices that have none yet.
+void Gathering::light_newborn() {
+  const std::size_t first = state_.light.size(), n = mesh_.vertices().size();
+  state_.light.resize(n);
+  state_.sent.resize(n);
+  std::vector<Vec3> points;
+  for (std::size_t v = first; v < n; ++v) points.push_back(mesh_.vertex(VertexId(v)).position);
+  const std::vector<std::uint32_t> order = z_order(points);
+  std::vector<Receiver> receivers;
+  for (std::uint32_t i : order) {
+    const Vertex& vertex = mesh_.vertex(static_cast<VertexId>(first + i));
+    receivers.push_back({vertex.gather_point, vertex.normal});
+  }
+  std::vector<Rgb> irradiance(order.size());
+  std::vector<double> deviation(order.size());
+  lights_.irradiance(receivers, irradiance, deviation);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    VertexLight& light = state_.light[first + order[i]];
+    light.direct = irradiance[i];
+    light.direct_deviation = deviation[i];
+  }
+  for (std::size_t v = first; v < n; ++v) sum_up(VertexId(v));
+}
+
+/// The surface over the middles of `chosen` edges, and E_d there.
+void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
+                   std::span<Middle> middles) {
+  parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Edge& edge = edges[chosen[i]];
+      middles[chosen[i]].point = point_over_edge(mesh_, rays_, edge.a, edge.b);
+    }
+  });
+  std::vector<Receiver> receivers;
+  std::vector<std::uint32_t> of;
+  for (std::uint32_t i : chosen) {
+    if (!middles[i].point) continue;
+    receivers.push_back({middles[i].point->position, middles[i].point->normal});
+    of.push_back(i);
+  }
+  std::vector<Rgb> irradiance(of.size());
+  std::vector<double> deviation(of.size());
+  lights_.irradiance(receivers, irradiance, deviation);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    middles[of[i]].direct = irradiance[i];
+    middles[of[i]].deviation = deviation[i];
+  }
+}
+
+/// The surface over the middles of edges, and E_d there.
+std::vector<Gathering::Middle> Gathering::middles_of(std::span<const Edge> edges) {
+  std::vector<Middle> middles(edges.size());
+  std::vector<Vec3> places;
+  for (const Edge& e : edges) {
+    places.push_back((mesh_.vertex(e.a).position + mesh_.vertex(e.b).position) / 2);
+  }
+  const std::vector<std::uint32_t> order = z_order(places);
+  for (std::size_t first = 0; first < edges.size() && keep_going(); first += kChunk) {
+    light_middles(edges, std::span(order).subspan(first, std::min(kChunk, edges.size() - first)),
+                  middles);
+  }
+  return middles;
+}
+
+/// e of E_d at the middle of an edge, signed; what chance adds to it left out.
+double Gathering::direct_error(const Edge& edge, const Middle& middle) const {
+  if (!middle.point) return 0;
+  const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
+  const double e = luminance((a.direct + b.direct) / 2 - middle.direct);
+  const double noise =
+      middle.deviation * middle.deviation +
+      (a.direct_deviation * a.direct_deviation + b.direct_deviation * b.direct_deviation) / 4;
+  return std::copysign(std::sqrt(std::max(0.0, e * e - noise)), e);
+}
+
+/// Splits edges until interpolation of E_d costs no more than its share.
+void Gathering::refine_direct() {
+  while (!stopped_) {
+    mesh_.compact();
+    if (callbacks_.checkpoint) callbacks_.checkpoint(state_);
+    const std::vector<Edge> edges = living_edges(mesh_);
+    sample(edges);
+    const double target = square(kDirectShare * state_.level * mean_irradiance());
+    const double total = direct_mean_square(edges);
+    state_.direct_mean_square = total;
+    if (stopped_ || total <= target || full()) return;
+    const std::size_t before = mesh_.vertices().size();
+    split_worst(edges, total, target);
+    if (mesh_.vertices().size() == before) return;
+  }
+}
+
+/// E_d in the middles of edges that were not looked at yet.
+void Gathering::sample(std::span<const Edge> edges) {
+  if (state_.direct_error.size() > 3 * edges.size()) {
+    std::unordered_map<std::uint64_t, float> living;
+    for (const Edge& e : edges) {
+      if (const auto at = state_.direct_error.find(e.key()); at != state_.direct_error.end())
+        living.insert(*at);
+    }
+    state_.direct_error.swap(living);
+  }
+  std::vector<Edge> fresh;
+  for (const Edge& e : edges) {
+    if (!state_.direct_error.contains(e.key())) fresh.push_back(e);
+  }
+  const std::vector<Middle> middles = middles_of(fresh);
+  if (stopped_) return;
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    state_.direct_error[fresh[i].key()] = static_cast<float>(direct_error(fresh[i], middles[i]));
+  }
+}
+
+double Gathering::direct_mean_square(std::span<const Edge> edges) {
+  double sum = 0, bias = 0;
+  for (const Edge& e : edges) {
+    const auto at = state_.direct_error.find(e.key());
+    if (at == state_.direct_error.end()) continue;
+    sum += cost(e, at->second);
+    bias += at->second * e.area / 3;
+  }
+  state_.bias = bias / area();
+  return sum / area();
+}
+
+/// Splits the edges that the bulk criterion names.
+void Gathering::split_worst(std::span<const Edge> edges, double total, double target) {
+  std::vector<std::pair<double, std::uint32_t>> ranked;
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const double share = cost(edges[i], state_.direct_error.at(edges[i].key())) / area();
+    if (share > 0) ranked.emplace_back(-share, i);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  // Splits leave about a tenth of an edge's cost behind; there is no need to go below the target.
+  const double enough = std::min(kBulk * total, 1.1 * (total - target));
+  double taken = 0;
+  std::vector<Edge> worst;
+  for (const auto& [minus_share, i] : ranked) {
+    if (taken >= enough) break;
+    taken -= minus_share;
+    worst.push_back(edges[i]);
+  }
+  split(worst, middles_of(worst));
+}
+
+/// Makes the middles vertices; E_i is interpolated.
+void Gathering::split(std::span<const Edge> edges, std::span<const Middle> middles) {
+  const auto first = static_cast<VertexId>(state_.light.size());
+  for (std::size_t i = 0; i < edges.size() && !full() && !stopped_; ++i) {
+    const auto& [a, b, area] = edges[i];
+    if (!middles[i].point) continue;
+    const std::optional<VertexId> v = mesh_.split_edge(a, b, *middles[i].point);
+    if (!v) {
+      state_.direct_error[edges[i].key()] = 0;  // stays as it is: nothing to gain here
+      continue;
+    }
+    ++state_.statistics.split;
+    split_since_[edges[i].key()] =
+        static_cast<float>(std::abs(signed_error(state_.direct_error, edges[i]) +
+                                    signed_error(state_.indirect_error, edges[i])));
+    state_.light.resize(mesh_.vertices().size());
+    state_.sent.resize(mesh_.vertices().size());
+    VertexLight& light = state_.light[*v];
+    light.direct = middles[i].direct;
+    light.direct_deviation = middles[i].deviation;
+    state_.give_parents(*v, {{a, b, a}, {0.5, 0.5, 0}});
+  }
+  for (VertexId v = first; v < state_.light.size(); ++v) {
+    interpolate_indirect(v);
+    sum_up(v);
+  }
+  foresee_bends(first);
+}
+
+}  // namespace isolux

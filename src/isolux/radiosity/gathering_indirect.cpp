@@ -1,0 +1,316 @@
+#include <algorithm>
+#include <cmath>
+
+#include "isolux/radiosity/gathering_procedure.h"
+
+namespace isolux {
+namespace {
+
+constexpr double kIndirectShare = 0.55;  // of the tolerance: interpolation of E_i
+constexpr double kRenewalShare = 0.1;   // of it: what a row of links may gain from finer triangles
+
+// Of the error squared that is allowed, what vertices between gathering ones may make up, and what
+// edges may. Half of it is left for the two falling together.
+constexpr double kVerticesPart = 0.3;
+constexpr double kEdgesPart = 0.3;
+
+// However small the area is where interpolation is off by more than this many tolerances of the mean
+// irradiance: vertices gather there, and edges are split as long as they are longer than this part
+// of the longest.
+constexpr double kMostBend = 1;
+constexpr double kFinest = 1.0 / 32;
+
+// E_i in the middle between two vertices is off their mean, as a rule, by this part of their
+// difference;
+constexpr double kUsualBend = 0.2;
+// or by this part of E_i where they stand at right angles.
+constexpr double kUsualTurn = 0.15;
+
+/// Of `ranked` (the largest cost first), how many to take for the others to cost no more than
+/// `budget`.
+template <typename T>
+std::size_t worth_taking(std::span<const std::pair<double, T>> ranked, double budget) {
+  double rest = 0;
+  std::size_t n = ranked.size();
+  while (n > 0 && rest + ranked[n - 1].first <= budget) rest += ranked[--n].first;
+  return n;
+}
+
+}  // namespace
+
+/// How far apart E_i of two vertices is, what chance adds left out.
+double Gathering::difference(VertexId v, VertexId w) const {
+  const VertexLight &a = state_.light[v], &b = state_.light[w];
+  const double noise = square(a.indirect_deviation) + square(b.indirect_deviation);
+  return std::sqrt(std::max(0.0, square(luminance(a.indirect - b.indirect)) - noise));
+}
+
+/// How far E_i in the middle between two vertices is off their mean, as a rule: a part of their
+/// difference, or of E_i where they are turned from each other.
+double Gathering::usual_bend(VertexId v, VertexId w) const {
+  const double mean = luminance(state_.light[v].indirect + state_.light[w].indirect) / 2;
+  const double turn = 1 - dot(mesh_.vertex(v).normal, mesh_.vertex(w).normal);
+  return std::max(kUsualBend * difference(v, w), kUsualTurn * mean * turn);
+}
+
+/// What interpolating E_i at a vertex among others costs, as a rule: as much more than in the
+/// middle of two as Σ weight · distance² says.
+double Gathering::rule_bend(VertexId v) const {
+  constexpr double kMost = 1.5;
+  const auto& [parents, weights] = state_.light[v].among;
+  double bend = 0, spread = 0, longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (weights[k] == 0) continue;
+    const Vec3& at = mesh_.vertex(parents[k]).position;
+    spread += weights[k] * length_squared(at - mesh_.vertex(v).position);
+    for (std::size_t l = k + 1; l < 3; ++l) {
+      if (weights[l] == 0) continue;
+      longest = std::max(longest, length_squared(at - mesh_.vertex(parents[l]).position));
+      bend = std::max(bend, usual_bend(parents[k], parents[l]));
+    }
+  }
+  return longest > 0 ? state_.bend_scale * bend * std::min(kMost, 4 * spread / longest) : 0;
+}
+
+/// By how much interpolating E_i at a vertex among others goes against a glimpse of it.
+double Gathering::surprise(VertexId v) const {
+  constexpr double kSure = 3.5;         // σ of a glimpse
+  constexpr double kLeastSigma = 0.05;  // of what is seen: few rays may be alike by chance
+  const VertexLight& light = state_.light[v];
+  double interpolated = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    interpolated += light.among.weights[k] * luminance(state_.light[light.among.vertices[k]].indirect);
+  }
+  const double sigma = std::max(light.glimpse_deviation, kLeastSigma * interpolated);
+  return std::max(0.0, std::abs(interpolated - light.glimpse) - kSure * sigma);
+}
+
+/// Lets vertices gather, and splits edges, where interpolation of E_i costs too much.
+void Gathering::refine_indirect() {
+  constexpr int kMostRounds = 24;
+  const double target = square(kIndirectShare * state_.level * mean_irradiance()) * area();
+  state_.indirect_error.clear();
+  for (int round = 0; round < kMostRounds && !stopped_; ++round) {
+    const std::vector<Edge> edges = living_edges(mesh_);
+    const std::vector<VertexId> doubtful = doubtful_vertices(kVerticesPart * target);
+    const std::vector<Edge> suspect = suspect_edges(edges, kEdgesPart * target);
+    if (doubtful.empty() && (suspect.empty() || full())) break;
+    gather_at_doubtful(doubtful);
+    split_suspects(suspect, target / double(edges.size()));
+    renew_links();
+    transfer();
+  }
+  state_.indirect_mean_square = indirect_mean_square();
+}
+
+/// The vertices that should gather for interpolation at all others to cost no more than `budget`
+/// (lx² m²). Where the doubt comes from those that a vertex lies among, they gather first.
+std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
+  std::vector<std::pair<double, VertexId>> ranked;
+  for (VertexId v = 0; v < state_.light.size(); ++v) {
+    if (state_.light[v].gathers) continue;
+    ranked.emplace_back(kMeanSquare * square(state_.light[v].bend) * area_around(v), v);
+  }
+  std::sort(ranked.begin(), ranked.end(), std::greater<>());
+  const std::size_t n = worth_taking<VertexId>(ranked, budget);
+
+  std::vector<VertexId> doubtful, open;
+  std::vector<char> seen(state_.light.size());
+  const auto visit = [&](VertexId v) {
+    if (!seen[v]) open.push_back(v);
+    seen[v] = 1;
+  };
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    if (i < n || state_.light[ranked[i].second].bend > most_bend()) visit(ranked[i].second);
+  }
+  while (!open.empty()) {
+    const VertexId v = open.back();
+    open.pop_back();
+    const VertexLight& light = state_.light[v];
+    if (2 * light.own_bend >= light.bend) {
+      doubtful.push_back(v);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId parent = light.among.vertices[k];
+      if (light.among.weights[k] > 0 && state_.light[parent].bend > 0) visit(parent);
+    }
+  }
+  std::sort(doubtful.begin(), doubtful.end());
+  return doubtful;
+}
+
+/// The edges between gathering vertices in whose middle to gather, for the others to cost no more
+/// than `budget` (lx² m²).
+std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double budget) const {
+  std::vector<std::pair<double, std::uint32_t>> ranked;
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const Edge& e = edges[i];
+    if (!state_.light[e.a].gathers || !state_.light[e.b].gathers) continue;
+    if (state_.indirect_error.contains(e.key())) continue;
+    ranked.emplace_back(cost(e, state_.bend_scale * usual_bend(e.a, e.b)), i);
+  }
+  std::sort(ranked.begin(), ranked.end(), std::greater<>());
+  const std::size_t n = worth_taking<std::uint32_t>(ranked, budget);
+  std::vector<Edge> suspect;
+  for (std::size_t i = 0; i < ranked.size(); ++i) {
+    const Edge& e = edges[ranked[i].second];
+    if (i < n || stands_out(e, usual_bend(e.a, e.b))) suspect.push_back(e);
+  }
+  return suspect;
+}
+
+double Gathering::most_bend() const { return kMostBend * state_.level * mean_irradiance(); }
+
+/// Whether an error e in the middle of an edge is worth a split even where the area is small.
+bool Gathering::stands_out(const Edge& edge, double e) const {
+  return std::abs(e) > most_bend() &&
+         distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) >
+             kFinest * mesh_.rules().max_edge;
+}
+
+/// Gives the vertices links, and learns how right the rule for them was.
+void Gathering::gather_at_doubtful(std::span<const VertexId> doubtful) {
+  struct Before {
+    VertexId vertex;
+    Rgb indirect;
+    double variance, area;
+  };
+  std::vector<Before> by_rule;
+  double foreseen = 0, found = 0;
+  for (const VertexId v : doubtful) {
+    const double rule = rule_bend(v);
+    if (rule < state_.light[v].own_bend) continue;  // it is a glimpse that doubts
+    const VertexLight& light = state_.light[v];
+    by_rule.push_back({v, light.indirect, square(light.indirect_deviation), area_around(v)});
+    foreseen += square(rule) * by_rule.back().area;
+  }
+  trace(doubtful);
+  parallel_for(doubtful.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (state_.light[doubtful[i]].gathers) evaluate(doubtful[i]);
+    }
+  });
+  for (const VertexId v : doubtful) sum_up(v);
+  double noise = 0;
+  for (const auto& [v, before, variance, area] : by_rule) {
+    const VertexLight& light = state_.light[v];
+    const double chance = variance + square(light.indirect_deviation);
+    found += (square(luminance(light.indirect - before)) - chance) * area;
+    noise += square(chance * area);
+  }
+  learn_bend(foreseen, found, noise, by_rule.size());
+}
+
+/// Of the triangles at a vertex, m².
+double Gathering::area_around(VertexId v) const {
+  double area = 0;
+  for (const TriangleId t : mesh_.vertex(v).triangles) area += mesh_.triangle(t).area;
+  return area;
+}
+
+/// Sets right what is foreseen of interpolation's errors, from sums of their squares over n places,
+/// by area. `noise`: the sum of the squares of the variances by chance, which are off `found`.
+void Gathering::learn_bend(double foreseen, double found, double noise, std::size_t n) {
+  constexpr std::size_t kFewest = 16;
+  constexpr double kMargin = 1.3;
+  if (n < kFewest || !(foreseen > 0)) return;
+  // The square of something normal has twice the square of its variance as its own.
+  const double at_most = std::max(0.0, found) + std::sqrt(2 * noise);
+  const double factor = kMargin * std::sqrt(at_most / foreseen);
+  state_.bend_scale = std::clamp(state_.bend_scale * std::clamp(factor, 0.5, 2.0), 0.1, 1.5);
+}
+
+/// Links anew the vertices whose rays landed on edges that are split since, where this matters:
+/// the mesh knows the light there better now.
+void Gathering::renew_links() {
+  if (split_since_.empty()) return;
+  const double matters = kRenewalShare * state_.level * mean_irradiance();
+  std::vector<char> touched(state_.light.size());  // ends of such edges
+  for (const auto& [edge, error] : split_since_) touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
+  const auto gain = [&](const Landing& landing) {
+    const auto& v = landing.vertices;
+    if (touched[v[0]] + touched[v[1]] + touched[v[2]] < 2) return 0.0;
+    double most = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(v[k], v[(k + 1) % 3]);
+      const auto split = split_since_.find(Edge{a, b}.key());
+      if (split != split_since_.end()) most = std::max(most, double(split->second));
+    }
+    return most > 0 ? most * luminance(mesh_.vertex(v[0]).reflectance) / 2 : 0;
+  };
+  std::vector<char> renew(state_.light.size());
+  parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::vector<Landing>& row = state_.light[v].row;
+      double sum = 0;
+      for (const Landing& landing : row) sum += gain(landing);
+      renew[v] = sum > matters * static_cast<double>(row.size());
+    }
+  });
+  std::vector<VertexId> vertices;
+  for (VertexId v = 0; v < renew.size(); ++v) {
+    if (renew[v]) vertices.push_back(v);
+  }
+  look_up_anew();
+  trace(vertices);
+}
+
+void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
+  const std::vector<Middle> middles = middles_of(suspect);
+  std::vector<std::vector<Landing>> rows(suspect.size());
+  for_pieces(suspect.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!middles[i].point) continue;
+      rows[i] = links({middles[i].point->position, middles[i].point->normal}, state_.grid,
+                      suspect[i].key());
+    }
+  });
+  state_.statistics.refinement_rays += suspect.size() * square_of(state_.grid);
+  double foreseen = 0, found = 0, chance = 0;
+  for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
+    const Edge& edge = suspect[i];
+    foreseen += square(state_.bend_scale * usual_bend(edge.a, edge.b)) * edge.area;
+    if (rows[i].empty()) {
+      state_.indirect_error[edge.key()] = 0;
+      continue;
+    }
+    const Gathered gathered = gather(rows[i]);
+    const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
+    const double e = luminance((a.indirect + b.indirect) / 2 - gathered.irradiance);
+    const double noise = square(gathered.error) +
+                         (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
+    const double clean = std::sqrt(std::max(0.0, e * e - noise));
+    state_.indirect_error[edge.key()] = static_cast<float>(std::copysign(clean, e));
+    found += (e * e - noise) * edge.area;
+    chance += square(noise * edge.area);
+    if (cost(edge, clean) <= allowed && !stands_out(edge, clean)) continue;
+    const std::size_t v = mesh_.vertices().size();
+    split({&edge, 1}, {&middles[i], 1});
+    if (mesh_.vertices().size() == v) continue;
+    VertexLight& light = state_.light[v];
+    give_links(static_cast<VertexId>(v), std::move(rows[i]));
+    light.indirect = gathered.irradiance;
+    light.indirect_deviation = gathered.error;
+    sum_up(static_cast<VertexId>(v));
+  }
+  learn_bend(foreseen, found, chance, suspect.size());
+}
+
+/// e of E_i in the middle of an edge: as it was found, or as a rule.
+double Gathering::indirect_error(const Edge& e) const {
+  const auto known = state_.indirect_error.find(e.key());
+  const double bend = known != state_.indirect_error.end()
+                          ? std::abs(known->second)
+                          : state_.bend_scale * usual_bend(e.a, e.b);
+  return bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2;
+}
+
+/// What interpolation of E_i costs, lx².
+double Gathering::indirect_mean_square() const {
+  double sum = 0;
+  for (const Edge& e : living_edges(mesh_)) sum += cost(e, indirect_error(e));
+  return sum / area();
+}
+
+}  // namespace isolux

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "isolux/core/parallel.h"
+#include "isolux/discretization/living_edges.h"
+#include "isolux/radiosity/direct_light.h"
+#include "isolux/radiosity/gathering_state.h"
+#include "isolux/radiosity/hemisphere_gather.h"
+#include "isolux/radiosity/options.h"
+#include "isolux/radiosity/stopwatch.h"
+
+namespace isolux {
+
+// Notation
+//   E = E_d + E_i    irradiance, lx: straight from the lights, and by reflection
+//   σ                standard deviation of a gathered value's luminance, lx
+//   e                error of linear interpolation in the middle of an edge, lx
+//   τ                the tolerance
+
+/// One run of gather_radiosity(): the procedure in gathering.cpp, the refinement for E_d in
+/// gathering_direct.cpp, links and transfer of E_i in gathering_transfer.cpp, and its refinement in
+/// gathering_indirect.cpp.
+class Gathering {
+ public:
+  Gathering(GatheringState& state, const RayCaster& rays, const Options& options,
+            const GatheringCallbacks& callbacks);
+
+  /// Procedure Radiosity (§3.2.1), by gathering.
+  void run();
+
+ private:
+  static constexpr std::size_t kChunk = 8192;  // work between two looks at the clock
+  static constexpr std::size_t kGrain = 256;
+
+  // Of a linear function's error squared over a triangle, as a mean: 8/45 (Σ e² + Σ e e') for the
+  // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
+  static constexpr double kMeanSquare = 16.0 / 45;
+
+  // The procedure
+  void first_solution();
+  bool next_level();
+  bool full() const;
+  bool keep_going();
+  double unshot_part() const;
+  double emitted_flux() const;
+  void estimate();
+  void finish();
+
+  // E_d
+  struct Middle {  // of an edge
+    std::optional<SurfacePoint> point;
+    Rgb direct;
+    double deviation = 0;
+  };
+  void refine_direct();
+  void light_newborn();
+  std::vector<Middle> middles_of(std::span<const Edge> edges);
+  void light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
+                     std::span<Middle> middles);
+  double direct_error(const Edge& edge, const Middle& middle) const;
+  void sample(std::span<const Edge> edges);
+  double direct_mean_square(std::span<const Edge> edges);
+  void split_worst(std::span<const Edge> edges, double total, double target);
+  void split(std::span<const Edge> edges, std::span<const Middle> middles);
+
+  // E_i
+  int grid_for(double level) const;
+  void gather_all(int grid);
+  void trace(std::span<const VertexId> vertices);
+  std::vector<Landing> links(const Receiver& receiver, int grid, std::uint64_t id) const;
+  void give_links(VertexId v, std::vector<Landing> row);
+  void glimpse();
+  void look_up_anew();
+  Gathered gather(std::span<const Landing> row) const;
+  void evaluate(VertexId v);
+  void interpolate_indirect(VertexId v);
+  void foresee_bends(VertexId first);
+  const std::vector<VertexId>& order();
+  void transfer();
+  void balance_indirect();
+  void settle_energy(std::span<const Rgb> old);
+  void add_ambient(std::span<const Rgb> old);
+  void find_excess();
+
+  // Refinement for E_i
+  void refine_indirect();
+  std::vector<VertexId> doubtful_vertices(double budget) const;
+  std::vector<Edge> suspect_edges(std::span<const Edge> edges, double budget) const;
+  void gather_at_doubtful(std::span<const VertexId> doubtful);
+  void split_suspects(std::span<const Edge> suspect, double allowed);
+  void learn_bend(double foreseen, double found, double noise, std::size_t n);
+  void renew_links();
+  double difference(VertexId v, VertexId w) const;
+  double usual_bend(VertexId v, VertexId w) const;
+  double area_around(VertexId v) const;
+  double rule_bend(VertexId v) const;
+  double surprise(VertexId v) const;
+  double most_bend() const;
+  bool stands_out(const Edge& edge, double e) const;
+  double indirect_error(const Edge& e) const;
+  double indirect_mean_square() const;
+
+  Rgb irradiance(VertexId v) const { return state_.light[v].direct + state_.light[v].indirect; }
+  void sum_up(VertexId v);
+  double area() const { return state_.statistics.mesh_area; }
+  double mean_irradiance() const { return state_.statistics.mean_irradiance; }
+  double variance_of(VertexId v) const;
+
+  static double square(double x) { return x * x; }
+  static constexpr std::uint64_t square_of(int n) {
+    return static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
+  }
+
+  /// What an error in the middle of an edge adds to the square of the error over all surfaces,
+  /// lx² m².
+  static double cost(const Edge& edge, double e) { return kMeanSquare * e * e * edge.area; }
+
+  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors, const Edge& e) {
+    const auto at = errors.find(e.key());
+    return at == errors.end() ? 0 : at->second;
+  }
+
+  /// Calls body(begin, end) for pieces of 0 … n − 1 on several threads, until told to stop. Returns
+  /// how many were done, from the first on.
+  template <typename Body>
+  std::size_t for_pieces(std::size_t n, Body&& body) {
+    std::size_t done = 0;
+    while (done < n && keep_going()) {
+      const std::size_t first = done, count = std::min(kChunk, n - first);
+      parallel_for(count, kGrain,
+                   [&](std::size_t begin, std::size_t end) { body(first + begin, first + end); });
+      done += count;
+    }
+    return done;
+  }
+
+  /// The mean of the errors `e` of edges around each vertex, by area, so that the sum over the
+  /// whole mesh is right.
+  template <typename Error>
+  std::vector<double> around_vertices(std::span<const Edge> edges, Error&& error) const {
+    std::vector<double> sum(state_.light.size()), area(state_.light.size());
+    for (const Edge& e : edges) {
+      for (const VertexId v : {e.a, e.b}) sum[v] += error(e) * e.area, area[v] += e.area;
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+      if (area[v] > 0) sum[v] /= area[v];
+    }
+    return sum;
+  }
+
+  GatheringState& state_;
+  Triangulation& mesh_;
+  const RayCaster& rays_;
+  const Options& options_;
+  const GatheringCallbacks& callbacks_;
+  const Stopwatch stopwatch_;
+  const DirectLight lights_;
+  std::optional<HemisphereGather> hemisphere_;  // over the mesh as it was at look_up_anew()
+  std::unordered_map<std::uint64_t, float> split_since_;  // edges split since then, and their |e|
+  std::vector<VertexId> order_;          // vertices, each after those it is interpolated from
+  std::vector<double> indirect_excess_;  // by vertex, lx: of the errors of E_i
+  bool stopped_ = false;
+};
+
+}  // namespace isolux
