@@ -22,6 +22,10 @@ SurfaceSampler::SurfaceSampler(const Solution& solution)
       mesh_rays_(solution.mesh),
       vertices_(solution.scene.bounds().lower, solution.mesh.rules().max_edge) {
   const auto vertices = solution.mesh.vertices();
+  if (solution.options.method == Method::gathering) {
+    lookup_.emplace(solution.mesh);
+    return;
+  }
   for (VertexId v = 0; v < vertices.size(); ++v) {
     if (!vertices[v].on_light) vertices_.insert(v, vertices[v].position);
   }
@@ -41,7 +45,7 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
     return {SampleKind::interpolated, emission + reflectance * irradiance, mesh};
   }
   const SurfacePoint point{hit->point, hit->normal, hit->surface, reflectance};
-  const std::optional<Rgb> irradiance = extrapolated(point, scratch);
+  const std::optional<Rgb> irradiance = lookup_ ? looked_up(point) : extrapolated(point, scratch);
   if (!irradiance) return {SampleKind::dark, emission, {}};
   return {SampleKind::extrapolated, emission + reflectance * *irradiance, {}};
 }
@@ -64,6 +68,16 @@ std::optional<Rgb> SurfaceSampler::extrapolated(const SurfacePoint& point, Scrat
   if (!connected.empty()) return extrapolate_irradiance(mesh, point, connected);
 
   return stand_ins(point, scratch.near);
+}
+
+std::optional<Rgb> SurfaceSampler::looked_up(const SurfacePoint& point) const {
+  const std::optional<MeshPlace> place = lookup_->place(point.position, point.normal);
+  if (!place) return std::nullopt;
+  Rgb irradiance;
+  for (std::size_t k = 0; k < 3; ++k) {
+    irradiance += solution_.mesh.vertex(place->vertices[k]).irradiance * place->weights[k];
+  }
+  return irradiance;
 }
 
 std::optional<Rgb> SurfaceSampler::stand_ins(const SurfacePoint& point,

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "isolux/discretization/mesh_lookup.h"
 #include "isolux/discretization/mesh_rays.h"
 #include "isolux/radiosity/pairing.h"
 #include "isolux/raycast/ray_caster.h"
@@ -44,12 +45,15 @@ class SurfaceSampler {
  private:
   std::optional<MeshHit> paired(const Ray& ray, const SurfaceHit& hit, Scratch& scratch) const;
   std::optional<Rgb> extrapolated(const SurfacePoint& point, Scratch& scratch) const;
+  std::optional<Rgb> looked_up(const SurfacePoint& point) const;
   std::optional<Rgb> stand_ins(const SurfacePoint& point, std::vector<VertexId>& near) const;
 
   const Solution& solution_;
   RayCaster rays_;
   MeshRays mesh_rays_;
   VertexGrid vertices_;
+  /// Of a mesh by gathering, which looked light up in this way too.
+  std::optional<MeshLookup> lookup_;
 };
 
 }  // namespace isolux

@@ -18,7 +18,7 @@ constexpr double kEdgesPart = 0.3;
 // irradiance: vertices gather there, and edges are split as long as they are longer than this part
 // of the longest.
 constexpr double kMostBend = 1;
-constexpr double kFinest = 1.0 / 32;
+constexpr double kFinest = 1.0 / 64;
 
 // E_i in the middle between two vertices is off their mean, as a rule, by this part of their
 // difference;
@@ -74,8 +74,8 @@ double Gathering::rule_bend(VertexId v) const {
 
 /// By how much interpolating E_i at a vertex among others goes against a glimpse of it.
 double Gathering::surprise(VertexId v) const {
-  constexpr double kSure = 3.5;         // σ of a glimpse
-  constexpr double kLeastSigma = 0.05;  // of what is seen: few rays may be alike by chance
+  constexpr double kSure = 2;            // σ of a glimpse
+  constexpr double kLeastSigma = 0.04;  // of what is seen: few rays may be alike by chance
   const VertexLight& light = state_.light[v];
   double interpolated = 0;
   for (std::size_t k = 0; k < 3; ++k) {
