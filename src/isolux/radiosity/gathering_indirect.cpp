@@ -87,7 +87,7 @@ double Gathering::surprise(VertexId v) const {
 
 /// Lets vertices gather, and splits edges, where interpolation of E_i costs too much.
 void Gathering::refine_indirect() {
-  constexpr int kMostRounds = 24;
+  constexpr int kMostRounds = 24, kRoundsBetweenRenewals = 3;
   const double target = square(kIndirectShare * state_.level * mean_irradiance()) * area();
   state_.indirect_error.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
@@ -97,9 +97,10 @@ void Gathering::refine_indirect() {
     if (doubtful.empty() && (suspect.empty() || full())) break;
     gather_at_doubtful(doubtful);
     split_suspects(suspect, target / double(edges.size()));
-    renew_links();
+    if (round % kRoundsBetweenRenewals == 1) renew_links();
     transfer();
   }
+  renew_links();
   state_.indirect_mean_square = indirect_mean_square();
 }
 
