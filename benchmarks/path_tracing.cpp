@@ -95,10 +95,11 @@ void run(const std::string& scene_path, const std::string& points_path, double t
   const double solving = cpu_since(start);
   const Solution solution{std::move(scene), std::move(solved.mesh), options, solved.statistics, ""};
   const std::size_t n = solution.mesh.vertices().size();
-  fmt::print("{}, tolerance {} %, one thread, s of CPU\n  solve: {:.3f} s, {} vertices, {:.3f} ms "
-             "each, estimated error {:.2f} %\n",
-             scene_path, 100 * tolerance, solving, n, 1e3 * solving / static_cast<double>(n),
-             100 * solution.statistics.error);
+  fmt::print(
+      "{}, tolerance {} %, one thread, s of CPU\n  solve: {:.3f} s, {} vertices, {:.3f} ms "
+      "each, estimated error {:.2f} %\n",
+      scene_path, 100 * tolerance, solving, n, 1e3 * solving / static_cast<double>(n),
+      100 * solution.statistics.error);
 
   const RayCaster rays(solution.scene);
   const PathTracer tracer(rays);

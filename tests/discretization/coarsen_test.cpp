@@ -37,10 +37,9 @@ void expect_ordered_places(const Triangulation& mesh, const Coarsening& coarse) 
 }
 
 std::size_t coarsest(const Coarsening& coarse) {
-  return static_cast<std::size_t>(
-      std::count_if(coarse.places.begin(), coarse.places.end(), [](const MeshPlace& place) {
-        return place.weights == std::array<double, 3>{};
-      }));
+  return static_cast<std::size_t>(std::count_if(
+      coarse.places.begin(), coarse.places.end(),
+      [](const MeshPlace& place) { return place.weights == std::array<double, 3>{}; }));
 }
 
 TEST(Coarsen, FlatSurfacesReproduceLinearFunctions) {

@@ -17,7 +17,7 @@ constexpr double kFacing = 0.64;
 constexpr double kBeside = 0.12;
 // Outlines that turn by more than the angle with this cosine have a corner.
 constexpr double kStraight = 0.85;
-constexpr std::size_t kNearest = 12;   // looked at for a place
+constexpr std::size_t kNearest = 12;    // looked at for a place
 constexpr std::size_t kNeighbours = 8;  // of a vertex in a coarser subset
 
 struct Flat {

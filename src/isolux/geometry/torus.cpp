@@ -85,22 +85,58 @@ Bounds Torus::bounds() const {
   return {center_ - half, center_ + half};
 }
 
-void Torus::intersect(const Ray& ray, Hits& hits) const {
+/// Whether the line may meet the surface between s = a and b: it passes neither above nor below,
+/// nor outside, nor through the hole.
+bool Torus::may_meet(const LocalLine& line, double a, double b) const {
+  constexpr double kHair = 1e-9;
+  const double unit = major_ + minor_;
+  const double R = major_ / unit, r = minor_ / unit * (1 + kHair);
+  const auto& [o, d, shift, speed] = line;
+  const double reach = 1 - length_squared(o);
+  if (!(reach > 0)) return false;  // passes the sphere around the torus
+  const double half = std::sqrt(reach) + kHair;
+  a = std::max(a, -half), b = std::min(b, half);
+  if (d.z != 0) {
+    const double at_bottom = (-r - o.z) / d.z, at_top = (r - o.z) / d.z;
+    a = std::max(a, std::min(at_bottom, at_top)), b = std::min(b, std::max(at_bottom, at_top));
+  } else if (std::abs(o.z) > r) {
+    return false;
+  }
+  if (!(a <= b)) return false;
+  // The square of the distance from the axis, convex along the line.
+  const double q2 = d.x * d.x + d.y * d.y, q1 = o.x * d.x + o.y * d.y, q0 = o.x * o.x + o.y * o.y;
+  const auto squared = [&](double s) { return (q2 * s + 2 * q1) * s + q0; };
+  const double nearest = q2 > 0 ? std::clamp(-q1 / q2, a, b) : a;
+  const double inner = (R - r) * (1 - kHair), outer = (R + r) * (1 + kHair);
+  return squared(nearest) <= outer * outer && std::max(squared(a), squared(b)) >= inner * inner;
+}
+
+Torus::LocalLine Torus::localize(const Ray& ray) const {
   const double unit = major_ + minor_, speed = length(ray.direction);
-  const double R = major_ / unit, r = minor_ / unit;
   const Vec3 direction = ray.direction / speed;
   const double shift = dot(center_ - ray.origin, direction);
   const auto to_local = [this](const Vec3& v) {
     return Vec3{dot(v, frame_.u), dot(v, frame_.v), dot(v, frame_.n)};
   };
-  const Vec3 o = to_local(ray.origin + direction * shift - center_) / unit;
-  const Vec3 d = to_local(direction);
-  const double oo = length_squared(o);
-  if (!(oo < 1)) return;  // passes the sphere around the torus
-  // Passes it above, or below, all the way through the sphere.
-  const double to_rim = std::abs(d.z) * std::sqrt(1 - oo);
-  if (std::abs(o.z) - to_rim > r * (1 + 1e-9)) return;
+  return {to_local(ray.origin + direction * shift - center_) / unit, to_local(direction), shift,
+          speed};
+}
 
+bool Torus::occludes(const Ray& ray, double t_min, double t_max) const {
+  const LocalLine line = localize(ray);
+  const double unit = major_ + minor_;
+  const auto s = [&](double t) { return (t * line.speed - line.shift) / unit; };
+  return may_meet(line, s(t_min), s(t_max)) && Shape::occludes(ray, t_min, t_max);
+}
+
+void Torus::intersect(const Ray& ray, Hits& hits) const {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  const LocalLine line = localize(ray);
+  if (!may_meet(line, -kAll, kAll)) return;
+  const auto& [o, d, shift, speed] = line;
+  const double unit = major_ + minor_;
+  const double R = major_ / unit, r = minor_ / unit;
+  const double oo = length_squared(o);
   const double k = oo + R * R - r * r;
   const double c2 = 2 * k - 4 * R * R * (d.x * d.x + d.y * d.y);
   const double c1 = -8 * R * R * (o.x * d.x + o.y * d.y);

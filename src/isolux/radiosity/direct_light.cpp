@@ -50,8 +50,8 @@ struct Piece {
   std::size_t corner_count;
   Vec3 normal;
   Index first, end;  ///< its triangles of the lattice
-  /// How far the curved surface that it stands for may be off it, m: a receiver on that same surface
-  /// is no more than this before the piece, and must not see it.
+  /// How far the curved surface that it stands for may be off it, m: a receiver on that same
+  /// surface is no more than this before the piece, and must not see it.
   double off = 0;
 
   std::span<const Vec3> polygon() const { return {corners.data(), corner_count}; }

@@ -92,10 +92,9 @@ bool Gathering::keep_going() {
     const double seconds = stopwatch_.wall();
     const auto ray_count =
         double(state_.statistics.refinement_rays + state_.statistics.shadow_rays);
-    stopped_ =
-        !callbacks_.progress({state_.statistics.iterations, 0, state_.statistics.error,
-                              unshot_part(), mesh_.triangle_count(),
-                              ray_count / std::max(seconds, 1e-9), 0});
+    stopped_ = !callbacks_.progress({state_.statistics.iterations, 0, state_.statistics.error,
+                                     unshot_part(), mesh_.triangle_count(),
+                                     ray_count / std::max(seconds, 1e-9), 0});
   }
   return !stopped_;
 }
@@ -190,7 +189,6 @@ void Gathering::sum_up(VertexId v) {
   const double l = luminance(e);
   state_.sent[v] = l > 0 ? e * std::clamp(1 - state_.light[v].excess / l, 0.3, 1.7) : e;
 }
-
 
 Rules gathering_rules(const Scene& scene) {
   constexpr double kLongestEdges = 8.5;  // across the scene

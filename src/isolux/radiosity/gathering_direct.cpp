@@ -43,7 +43,7 @@ void Gathering::light_newborn() {
 
 /// The surface over the middles of `chosen` edges, and E_d there.
 void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
-                   std::span<Middle> middles) {
+                              std::span<Middle> middles) {
   parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Edge& edge = edges[chosen[i]];

@@ -7,16 +7,16 @@ namespace isolux {
 namespace {
 
 constexpr double kIndirectShare = 0.55;  // of the tolerance: interpolation of E_i
-constexpr double kRenewalShare = 0.1;   // of it: what a row of links may gain from finer triangles
+constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain from finer triangles
 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what
 // edges may. Half of it is left for the two falling together.
 constexpr double kVerticesPart = 0.3;
 constexpr double kEdgesPart = 0.3;
 
-// However small the area is where interpolation is off by more than this many tolerances of the mean
-// irradiance: vertices gather there, and edges are split as long as they are longer than this part
-// of the longest.
+// However small the area is where interpolation is off by more than this many tolerances of the
+// mean irradiance: vertices gather there, and edges are split as long as they are longer than this
+// part of the longest.
 constexpr double kMostBend = 1;
 constexpr double kFinest = 1.0 / 64;
 
@@ -74,12 +74,13 @@ double Gathering::rule_bend(VertexId v) const {
 
 /// By how much interpolating E_i at a vertex among others goes against a glimpse of it.
 double Gathering::surprise(VertexId v) const {
-  constexpr double kSure = 2;            // σ of a glimpse
+  constexpr double kSure = 2;           // σ of a glimpse
   constexpr double kLeastSigma = 0.04;  // of what is seen: few rays may be alike by chance
   const VertexLight& light = state_.light[v];
   double interpolated = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    interpolated += light.among.weights[k] * luminance(state_.light[light.among.vertices[k]].indirect);
+    interpolated +=
+        light.among.weights[k] * luminance(state_.light[light.among.vertices[k]].indirect);
   }
   const double sigma = std::max(light.glimpse_deviation, kLeastSigma * interpolated);
   return std::max(0.0, std::abs(interpolated - light.glimpse) - kSure * sigma);
@@ -228,7 +229,8 @@ void Gathering::renew_links() {
   if (split_since_.empty()) return;
   const double matters = kRenewalShare * state_.level * mean_irradiance();
   std::vector<char> touched(state_.light.size());  // ends of such edges
-  for (const auto& [edge, error] : split_since_) touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
+  for (const auto& [edge, error] : split_since_)
+    touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
   const auto gain = [&](const Landing& landing) {
     const auto& v = landing.vertices;
     if (touched[v[0]] + touched[v[1]] + touched[v[2]] < 2) return 0.0;
@@ -279,8 +281,8 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     const Gathered gathered = gather(rows[i]);
     const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
     const double e = luminance((a.indirect + b.indirect) / 2 - gathered.irradiance);
-    const double noise = square(gathered.error) +
-                         (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
+    const double noise =
+        square(gathered.error) + (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
     const double clean = std::sqrt(std::max(0.0, e * e - noise));
     state_.indirect_error[edge.key()] = static_cast<float>(std::copysign(clean, e));
     found += (e * e - noise) * edge.area;

@@ -120,7 +120,8 @@ class Gathering {
   /// lx² m².
   static double cost(const Edge& edge, double e) { return kMeanSquare * e * e * edge.area; }
 
-  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors, const Edge& e) {
+  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors,
+                             const Edge& e) {
     const auto at = errors.find(e.key());
     return at == errors.end() ? 0 : at->second;
   }

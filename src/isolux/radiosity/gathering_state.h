@@ -20,14 +20,14 @@ struct VertexLight {
   double direct_deviation = 0, indirect_deviation = 0;  // σ of their luminance, lx
   /// What interpolating E_i may have cost, lx: here, and with what its parents have of it.
   double own_bend = 0, bend = 0;
-  double escaped = 0;                 // part of the hemisphere from where no light can come back
-  double excess = 0;                  // by how much interpolation around it is too bright, lx
+  double escaped = 0;  // part of the hemisphere from where no light can come back
+  double excess = 0;   // by how much interpolation around it is too bright, lx
   double glimpse = 0, glimpse_deviation = 0;  // E_i's luminance by few rays, and its σ, lx
-  MeshPlace among;                    // the vertices that E_i is interpolated from if it does not
-                                      // gather: those it lies among, all of them less deep
-  std::uint32_t depth = 0;            // 0: it has none, and gathers
+  MeshPlace among;          // the vertices that E_i is interpolated from if it does not
+                            // gather: those it lies among, all of them less deep
+  std::uint32_t depth = 0;  // 0: it has none, and gathers
   bool gathers = false;
-  std::vector<Landing> row;           // where it gathers; few where it does not, for a glimpse
+  std::vector<Landing> row;  // where it gathers; few where it does not, for a glimpse
 };
 
 /// What gathering knows between two of its rounds: enough to go on from there.
@@ -55,7 +55,8 @@ struct GatheringState {
   int tries = 0;     // levels below the tolerance asked for
   int grid = 0;      // rays over a hemisphere: cells a side
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
-  double bend_scale = 0.7;  // what is foreseen of the errors of interpolating E_i is right times this
+  double bend_scale =
+      0.7;                // what is foreseen of the errors of interpolating E_i is right times this
   double bias = 0;        // mean of direct_error, lx
   Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
   double deviation = 0;   // root mean square of σ, lx

@@ -81,8 +81,7 @@ void Gathering::glimpse() {
   const std::size_t done = for_pieces(blind.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vertex& vertex = mesh_.vertex(blind[i]);
-      state_.light[blind[i]].row =
-          links({vertex.gather_point, vertex.normal}, kFewRays, blind[i]);
+      state_.light[blind[i]].row = links({vertex.gather_point, vertex.normal}, kFewRays, blind[i]);
     }
   });
   state_.statistics.refinement_rays += done * square_of(kFewRays);
@@ -156,15 +155,16 @@ void Gathering::foresee_bends(VertexId first) {
   if (first == 0) {
     for (const VertexId v : order()) inherit(v);
   } else {
-    for (VertexId v = first; v < state_.light.size(); ++v) inherit(v);  // those of a split come first
+    for (VertexId v = first; v < state_.light.size(); ++v)
+      inherit(v);  // those of a split come first
   }
 }
 
 /// By how much interpolation is too bright around each vertex.
 void Gathering::find_excess() {
   const std::vector<Edge> edges = living_edges(mesh_);
-  indirect_excess_ = around_vertices(
-      edges, [&](const Edge& e) { return signed_error(state_.indirect_error, e); });
+  indirect_excess_ =
+      around_vertices(edges, [&](const Edge& e) { return signed_error(state_.indirect_error, e); });
   const std::vector<double> direct_excess =
       around_vertices(edges, [&](const Edge& e) { return signed_error(state_.direct_error, e); });
   for (VertexId v = 0; v < state_.light.size(); ++v) {
@@ -198,7 +198,8 @@ void Gathering::transfer() {
     settle_energy(old);
     if (state_.statistics.unshot_flux <= enough * state_.statistics.emitted_flux) break;
     add_ambient(old);
-  }  parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  }
+  parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       VertexLight& light = state_.light[gatherers[i]];
       light.indirect_deviation = gather(light.row).error;

@@ -31,7 +31,8 @@ std::vector<std::uint32_t> z_order(std::span<const Vec3> points) {
   for (const Vec3& p : points) bounds.include(p);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
   codes.reserve(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) codes.emplace_back(morton(points[i], bounds), i);
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    codes.emplace_back(morton(points[i], bounds), i);
   std::sort(codes.begin(), codes.end());
   std::vector<std::uint32_t> order;
   order.reserve(codes.size());

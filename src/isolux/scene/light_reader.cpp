@@ -1,6 +1,5 @@
 #include "isolux/scene/light_reader.h"
 
-
 #include "isolux/scene/scene.h"
 
 namespace isolux {

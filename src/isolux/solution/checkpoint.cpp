@@ -46,8 +46,8 @@ struct PackedTriangle {
 
 struct PackedLight {
   Rgb direct, indirect;
-  double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0, excess = 0,
-         glimpse = 0, glimpse_deviation = 0;
+  double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0,
+         excess = 0, glimpse = 0, glimpse_deviation = 0;
   MeshPlace among;
   std::uint32_t depth = 0, gathers = 0;
   std::uint64_t landings = 0;
@@ -170,9 +170,9 @@ json state_to_json(const GatheringState& state) {
   std::vector<PackedLight> lights;
   std::vector<Landing> landings;
   for (const VertexLight& l : state.light) {
-    lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend, l.bend,
-                      l.escaped, l.excess, l.glimpse,
-                      l.glimpse_deviation, l.among, l.depth, l.gathers, l.row.size()});
+    lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend,
+                      l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among, l.depth,
+                      l.gathers, l.row.size()});
     landings.insert(landings.end(), l.row.begin(), l.row.end());
   }
   put(object, "light", lights);
@@ -204,8 +204,9 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   }
   std::size_t next = 0;
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
-    state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation, p.own_bend, p.bend,
-                           p.escaped, p.excess, p.glimpse, p.glimpse_deviation, p.among, p.depth, p.gathers != 0,
+    state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation,
+                           p.own_bend, p.bend, p.escaped, p.excess, p.glimpse, p.glimpse_deviation,
+                           p.among, p.depth, p.gathers != 0,
                            take(landings, next, p.landings, "landings")});
   }
   state.sent = get<Rgb>(object, "sent");
