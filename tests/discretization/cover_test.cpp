@@ -192,5 +192,22 @@ TEST(FlipTest, KeepsThePowerSent) {
   EXPECT_FALSE(mesh.flip(c, d));
 }
 
+TEST(CoverTest, StopsWhenToldWithAValidPart) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  const auto points_of = [&](int looks) {
+    Triangulation mesh({0.022, 1e-9, 0.77}, scene.bounds());
+    CoverOptions options{0.01, 1, {}};
+    options.keep_going = [&] { return looks-- > 0; };
+    cover(mesh, rays, options);
+    EXPECT_THAT(mesh.validate(), ::testing::IsEmpty());
+    return mesh.vertices().size();
+  };
+  const std::size_t early = points_of(0), later = points_of(3);
+  EXPECT_GT(early, 4000u);
+  EXPECT_GT(later, early + 8000);
+  EXPECT_LT(later, 40'000u);
+}
+
 }  // namespace
 }  // namespace isolux

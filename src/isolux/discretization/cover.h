@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "isolux/discretization/triangulation.h"
 
@@ -9,6 +10,8 @@ namespace isolux {
 struct CoverOptions {
   double spacing = 0.1;    ///< m: between neighbours on flat surfaces far from anything
   std::uint64_t seed = 1;  ///< of the random lines and of the points' places
+  /// Asked every few thousand points; once it says no, only what has points is covered.
+  std::function<bool()> keep_going = {};
 };
 
 /// Covers every surface that light can reach with triangles, before there is any light: lights

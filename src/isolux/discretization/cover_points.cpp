@@ -23,8 +23,23 @@ constexpr int kDirections = 8;
 
 }  // namespace
 
-CoverPoints::CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed)
-    : walk_(walk), spacing_(spacing), random_(seed), grid_(walk.rays().scene().bounds().lower) {}
+CoverPoints::CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed,
+                         std::function<bool()> keep_going)
+    : walk_(walk),
+      spacing_(spacing),
+      random_(seed),
+      grid_(walk.rays().scene().bounds().lower),
+      keep_going_(std::move(keep_going)) {}
+
+/// Whether to go on; asked now and then, and once refused, refused for good.
+bool CoverPoints::going() {
+  constexpr std::size_t kPointsBetweenLooks = 4096;
+  if (!stopped_ && keep_going_ && points_.size() >= next_look_) {
+    next_look_ = points_.size() + kPointsBetweenLooks;
+    if (points_.size() > 0) stopped_ = !keep_going_();
+  }
+  return !stopped_;
+}
 
 double CoverPoints::fineness(double size) const {
   return std::max(1e-5 * size, 0.5 * walk_.rays().epsilon());
@@ -129,7 +144,7 @@ double CoverPoints::largest_on(const ZonePoint& point) const {
 
 void CoverPoints::grow_from(const ZonePoint& point) {
   beyond_.push_back(point);
-  for (std::size_t next = 0; next < beyond_.size(); ++next) {
+  for (std::size_t next = 0; next < beyond_.size() && going(); ++next) {
     const ZonePoint from = beyond_[next];
     offer(from, largest_on(from));
     spawn_all();
@@ -138,7 +153,7 @@ void CoverPoints::grow_from(const ZonePoint& point) {
 }
 
 void CoverPoints::spawn_all() {
-  while (!front_.empty()) {
+  while (!front_.empty() && going()) {
     const std::uint32_t parent = front_.top().second;
     front_.pop();
     spawn(parent);
@@ -146,6 +161,8 @@ void CoverPoints::spawn_all() {
 }
 
 void CoverPoints::settle() {
+  if (stopped_) return;
+  next_look_ = 0;
   const std::vector<CoverPoint> points = std::move(points_);
   const std::vector<Surroundings> around = std::move(surroundings_);
   const auto along = std::move(along_crease_);
@@ -175,7 +192,7 @@ void CoverPoints::settle() {
     accept(points[i], around[i]);
   }
   spawn_all();
-  while (!beyond_.empty()) {
+  while (!beyond_.empty() && going()) {
     const ZonePoint point = beyond_.back();
     beyond_.pop_back();
     offer(point, largest_on(point));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -21,8 +22,9 @@ struct CoverPoint : ZonePoint {
 /// inside, and at their corners; then between them, no two closer than about their size.
 class CoverPoints {
  public:
-  /// `spacing`: the largest size, m.
-  CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed);
+  /// `spacing`: the largest size, m. `keep_going`, if any: as in CoverOptions.
+  CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed,
+              std::function<bool()> keep_going = {});
 
   /// Covers the smooth surface around `point` with points, and those that adjoin it, as far as
   /// they are not covered yet.
@@ -70,6 +72,7 @@ class CoverPoints {
   void add(const CoverPoint& point, const Surroundings& around);
   void spawn_all();
   void run_creases();
+  bool going();
 
   void trace(const CreaseSeed& seed);
   bool known(const SurfacePoint& point, const Vec3& outward, double size) const;
@@ -100,6 +103,9 @@ class CoverPoints {
   std::priority_queue<Front, std::vector<Front>, std::greater<>> front_;  // finest first
   std::vector<CreaseSeed> crease_seeds_;
   std::vector<ZonePoint> beyond_;  // points of adjoining surfaces, to be grown from
+  std::function<bool()> keep_going_;
+  std::size_t next_look_ = 0;  // points at which to ask again
+  bool stopped_ = false;
 };
 
 }  // namespace isolux

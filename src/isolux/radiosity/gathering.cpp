@@ -57,6 +57,7 @@ void Gathering::first_solution() {
   CoverOptions cover_options;
   cover_options.spacing = mesh_.rules().max_edge / 2;
   cover_options.seed = options_.seed;
+  cover_options.keep_going = [this] { return keep_going(); };
   cover(mesh_, rays_, cover_options);
   light_newborn();
   const Coarsening subsets = coarsen(mesh_, kSubsets);
