@@ -19,6 +19,8 @@ namespace isolux {
 /// in.
 std::vector<std::uint8_t> separate_lights(const Scene& scene);
 
+struct LightLattice;
+
 /// The light that arrives straight from the separate lights of a scene.
 ///
 /// A light seen whole counts by the closed form (form_factor()). Elsewhere rays to the points of a
@@ -39,13 +41,10 @@ class DirectLight {
   void irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
                   std::span<double> error) const;
 
-  // Of use inside: a light as a lattice of points, lines between them and triangles.
-  struct Light;
-
  private:
   const RayCaster& rays_;
   std::vector<std::uint8_t> separate_;
-  std::vector<std::shared_ptr<const Light>> lights_;
+  std::vector<std::shared_ptr<const LightLattice>> lights_;
 };
 
 }  // namespace isolux
