@@ -28,6 +28,7 @@ struct Arguments {
   std::string camera;
   Size size;
   bool mesh = false;
+  bool direct = false;
 };
 
 Size parse_size(const std::string& text) {
@@ -64,7 +65,9 @@ void run(const Arguments& a) {
     write_png(mesh_picture(solution, camera), a.output);
     return;
   }
-  const Picture picture = render(solution, camera).picture;
+  RenderOptions options;
+  options.direct = a.direct;
+  const Picture picture = render(solution, camera, options).picture;
   if (exr) {
     write_exr(picture, a.output);
   } else {
@@ -88,7 +91,11 @@ void add_render(CLI::App& program) {
           "--size", [a](const std::string& text) { a->size = parse_size(text); },
           "in pixels [the camera's]")
       ->option_text("WxH");
-  command.add_flag("--mesh", a->mesh, "the mesh instead, as .png");
+  CLI::Option* const mesh = command.add_flag("--mesh", a->mesh, "the mesh instead, as .png");
+  command
+      .add_flag("--direct", a->direct,
+                "gather the lights' light anew in every pixel: sharp shadows")
+      ->excludes(mesh);
   command.callback([a] { run(*a); });
 }
 

@@ -34,11 +34,15 @@ Picture mesh_picture(const Solution& solution, const Camera& camera, const Rende
   const SurfaceSampler sampler(solution);
   const Picture coverage = supersample(camera, options, [&]() -> Shade {
     const auto scratch = std::make_shared<SurfaceSampler::Scratch>();
-    return [&, scratch](const Ray& ray, double pixel_angle) {
-      const SurfaceSample sample = sampler.sample(ray, *scratch);
-      if (!sample.mesh) return gray(0);
-      const double angle = angle_to_sides(solution.mesh, sample.mesh->triangle, ray);
-      return gray(angle < kHalfWidth * pixel_angle ? 1 : 0);
+    return [&, scratch](std::span<const Ray> rays, double pixel_angle) {
+      int on_lines = 0;
+      for (const Ray& ray : rays) {
+        const SurfaceSample sample = sampler.sample(ray, *scratch);
+        if (!sample.mesh) continue;
+        const double angle = angle_to_sides(solution.mesh, sample.mesh->triangle, ray);
+        on_lines += angle < kHalfWidth * pixel_angle;
+      }
+      return gray(on_lines / static_cast<double>(rays.size()));
     };
   });
   Picture picture = shading;

@@ -22,8 +22,9 @@ struct Rendering {
 };
 
 /// Resampling (§3.3.1): every sample meets the true surface, and takes its light from the triangle
-/// paired with it, or where there is none from the vertices around it. Where there is no surface
-/// the picture is black. Throws InputError as supersample() does.
+/// paired with it, or where there is none from the vertices around it; with RenderOptions::direct,
+/// straight from the lights (DirectFinish). Where there is no surface the picture is black. Throws
+/// InputError as supersample() does, and where direct light is asked for of a solution by shooting.
 Rendering render(const Solution& solution, const Camera& camera, const RenderOptions& options = {});
 
 }  // namespace isolux

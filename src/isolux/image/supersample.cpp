@@ -36,19 +36,20 @@ Picture supersample(const Camera& camera, const RenderOptions& options,
   const double pixel = 1.0 / camera.height;
   const auto sample_row = [&](int y) {
     const Shade shade = new_shade();
+    std::vector<Ray> rays(static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid));
     for (int x = 0; x < camera.width; ++x) {
       const auto stream = static_cast<std::uint64_t>(y) * camera.width + x;
       Random random(options.seed, stream);
       const double v = (y + 0.5) * pixel, u = (x + 0.5) / camera.width;
       const double pixel_angle =
           distance(camera.ray(u, v).direction, camera.ray(u, v + pixel).direction);
-      Rgb sum;
       for (int cell = 0; cell < grid * grid; ++cell) {
         const double dx = (cell % grid + random.uniform()) / grid;
         const double dy = (cell / grid + random.uniform()) / grid;
-        sum += shade(camera.ray((x + dx) / camera.width, (y + dy) * pixel), pixel_angle);
+        rays[static_cast<std::size_t>(cell)] =
+            camera.ray((x + dx) / camera.width, (y + dy) * pixel);
       }
-      picture.at(x, y) = sum / (double(grid) * grid);
+      picture.at(x, y) = shade(rays, pixel_angle);
     }
   };
   parallel_for(static_cast<std::size_t>(camera.height), 1, [&](std::size_t begin, std::size_t end) {

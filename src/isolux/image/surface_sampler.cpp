@@ -40,14 +40,42 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
   const Object& object = scene.objects[hit->surface.object];
   const Rgb reflectance = scene.material_of(hit->surface.object).reflectance;
   const Rgb emission = hit->back ? Rgb{} : object.exitance;
-  if (const std::optional<MeshHit> mesh = paired(ray, *hit, scratch)) {
+  const std::optional<MeshHit> mesh = paired(ray, *hit, scratch);
+  if (lookup_) {
+    SurfaceSample sample = looked_up(*hit, mesh);
+    sample.exitance = emission + reflectance * sample.exitance;
+    sample.reflectance = reflectance;
+    return sample;
+  }
+  if (mesh) {
     const Rgb irradiance = interpolate_irradiance(solution_.mesh, *mesh);
     return {SampleKind::interpolated, emission + reflectance * irradiance, mesh};
   }
   const SurfacePoint point{hit->point, hit->normal, hit->surface, reflectance};
-  const std::optional<Rgb> irradiance = lookup_ ? looked_up(point) : extrapolated(point, scratch);
+  const std::optional<Rgb> irradiance = extrapolated(point, scratch);
   if (!irradiance) return {SampleKind::dark, emission, {}};
   return {SampleKind::extrapolated, emission + reflectance * *irradiance, {}};
+}
+
+/// The irradiance, in place of the exitance, at a point of a mesh by gathering.
+SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
+                                        const std::optional<MeshHit>& paired) const {
+  SurfaceSample sample{SampleKind::interpolated, {}, paired, {hit.point, hit.normal}};
+  if (paired) {
+    sample.place = MeshPlace{solution_.mesh.triangle(paired->triangle).vertices, paired->weights};
+  } else {
+    sample.kind = SampleKind::extrapolated;
+    sample.place = lookup_->place(hit.point, hit.normal);
+  }
+  if (!sample.place) {
+    sample.kind = SampleKind::dark;
+    return sample;
+  }
+  const auto& [vertices, weights] = *sample.place;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sample.exitance += solution_.mesh.vertex(vertices[k]).irradiance * weights[k];
+  }
+  return sample;
 }
 
 std::optional<MeshHit> SurfaceSampler::paired(const Ray& ray, const SurfaceHit& hit,
@@ -68,16 +96,6 @@ std::optional<Rgb> SurfaceSampler::extrapolated(const SurfacePoint& point, Scrat
   if (!connected.empty()) return extrapolate_irradiance(mesh, point, connected);
 
   return stand_ins(point, scratch.near);
-}
-
-std::optional<Rgb> SurfaceSampler::looked_up(const SurfacePoint& point) const {
-  const std::optional<MeshPlace> place = lookup_->place(point.position, point.normal);
-  if (!place) return std::nullopt;
-  Rgb irradiance;
-  for (std::size_t k = 0; k < 3; ++k) {
-    irradiance += solution_.mesh.vertex(place->vertices[k]).irradiance * place->weights[k];
-  }
-  return irradiance;
 }
 
 std::optional<Rgb> SurfaceSampler::stand_ins(const SurfacePoint& point,

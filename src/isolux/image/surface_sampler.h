@@ -5,6 +5,7 @@
 
 #include "isolux/discretization/mesh_lookup.h"
 #include "isolux/discretization/mesh_rays.h"
+#include "isolux/radiosity/form_factor.h"
 #include "isolux/radiosity/pairing.h"
 #include "isolux/raycast/ray_caster.h"
 #include "isolux/solution/solution.h"
@@ -24,6 +25,11 @@ struct SurfaceSample {
   SampleKind kind = SampleKind::background;
   Rgb exitance;                 ///< lm/m²: emitted and reflected by the true surface
   std::optional<MeshHit> mesh;  ///< where interpolated
+  /// Of a solution by gathering, where light was found: the point, its reflectance, and the
+  /// vertices that its light is interpolated from.
+  Receiver receiver = {};
+  Rgb reflectance = {};
+  std::optional<MeshPlace> place = {};
 };
 
 /// Looks at the true surfaces of a solution under the light of its triangulation, which it never
@@ -39,13 +45,15 @@ class SurfaceSampler {
     std::vector<VertexId> near;
   };
 
+  const RayCaster& rays() const { return rays_; }
+
   /// `ray` has a direction of length 1.
   SurfaceSample sample(const Ray& ray, Scratch& scratch) const;
 
  private:
   std::optional<MeshHit> paired(const Ray& ray, const SurfaceHit& hit, Scratch& scratch) const;
   std::optional<Rgb> extrapolated(const SurfacePoint& point, Scratch& scratch) const;
-  std::optional<Rgb> looked_up(const SurfacePoint& point) const;
+  SurfaceSample looked_up(const SurfaceHit& hit, const std::optional<MeshHit>& paired) const;
   std::optional<Rgb> stand_ins(const SurfacePoint& point, std::vector<VertexId>& near) const;
 
   const Solution& solution_;

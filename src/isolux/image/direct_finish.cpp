@@ -1,0 +1,46 @@
+#include "isolux/image/direct_finish.h"
+
+#include <algorithm>
+
+#include "isolux/radiosity/spatial_order.h"
+
+namespace isolux {
+
+DirectFinish::DirectFinish(const Solution& solution, const RayCaster& rays)
+    : lights_(rays), direct_(solution.mesh.vertices().size()) {
+  const auto vertices = solution.mesh.vertices();
+  std::vector<Vec3> places;
+  for (const Vertex& v : vertices) places.push_back(v.position);
+  const std::vector<std::uint32_t> order = z_order(places);
+  std::vector<Receiver> receivers;
+  for (const std::uint32_t v : order) {
+    receivers.push_back({vertices[v].gather_point, vertices[v].normal});
+  }
+  std::vector<Rgb> irradiance(order.size());
+  std::vector<double> deviation(order.size());
+  lights_.irradiance(receivers, irradiance, deviation);
+  for (std::size_t i = 0; i < order.size(); ++i) direct_[order[i]] = irradiance[i];
+}
+
+void DirectFinish::apply(std::span<SurfaceSample> samples) const {
+  std::vector<SurfaceSample*> lit;
+  std::vector<Receiver> receivers;
+  for (SurfaceSample& sample : samples) {
+    if (!sample.place || sample.reflectance == Rgb{}) continue;
+    lit.push_back(&sample);
+    receivers.push_back(sample.receiver);
+  }
+  std::vector<Rgb> irradiance(lit.size());
+  std::vector<double> deviation(lit.size());
+  lights_.irradiance(receivers, irradiance, deviation);
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    const auto& [vertices, weights] = *lit[i]->place;
+    Rgb interpolated;
+    for (std::size_t k = 0; k < 3; ++k) interpolated += direct_[vertices[k]] * weights[k];
+    const Rgb exitance = lit[i]->exitance + lit[i]->reflectance * (irradiance[i] - interpolated);
+    lit[i]->exitance = {std::max(exitance.r, 0.0), std::max(exitance.g, 0.0),
+                        std::max(exitance.b, 0.0)};
+  }
+}
+
+}  // namespace isolux
