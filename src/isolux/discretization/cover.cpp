@@ -11,8 +11,26 @@ namespace {
 // Lines through the whole scene, and through each object's own bounds.
 constexpr std::size_t kLinesThroughScene = 2048;
 constexpr std::size_t kLinesThroughObject = 64;
+// Rays from each camera: cells a side of its picture.
+constexpr int kEyeGrid = 48;
 
-/// Points of all surfaces that light can reach, however small or hidden.
+/// Adds what each camera sees, by one ray in each cell of its picture (§3.2.1).
+void eye_pass(const SurfaceWalk& walk, std::uint64_t seed, std::vector<ZonePoint>& all) {
+  const Scene& scene = walk.rays().scene();
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
+    Random random(seed, ~std::uint64_t{c});
+    for (int cell = 0; cell < kEyeGrid * kEyeGrid; ++cell) {
+      const double x = (cell % kEyeGrid + random.uniform()) / kEyeGrid;
+      const double y = (cell / kEyeGrid + random.uniform()) / kEyeGrid;
+      const Ray ray = scene.cameras[c].ray(x, y);
+      const auto hit = walk.rays().nearest(ray);
+      if (!hit || dot(hit->normal, ray.direction) >= 0) continue;
+      if (const auto point = walk.at(*hit)) all.push_back(*point);
+    }
+  }
+}
+
+/// Points of all surfaces that light can reach, however small or hidden, or that a camera sees.
 std::vector<ZonePoint> points_on_all_surfaces(const SurfaceWalk& walk, std::uint64_t seed) {
   const RayCaster& rays = walk.rays();
   const Scene& scene = rays.scene();
@@ -39,6 +57,7 @@ std::vector<ZonePoint> points_on_all_surfaces(const SurfaceWalk& walk, std::uint
   });
   std::vector<ZonePoint> all;
   for (const auto& points : found) all.insert(all.end(), points.begin(), points.end());
+  eye_pass(walk, seed, all);
   return all;
 }
 
