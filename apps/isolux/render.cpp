@@ -92,9 +92,7 @@ void add_render(CLI::App& program) {
           "in pixels [the camera's]")
       ->option_text("WxH");
   CLI::Option* const mesh = command.add_flag("--mesh", a->mesh, "the mesh instead, as .png");
-  command
-      .add_flag("--direct", a->direct,
-                "gather the lights' light anew in every pixel: sharp shadows")
+  command.add_flag("--direct", a->direct, "the light of lights anew in every pixel")
       ->excludes(mesh);
   command.callback([a] { run(*a); });
 }

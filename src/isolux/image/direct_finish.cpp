@@ -2,24 +2,15 @@
 
 #include <algorithm>
 
-#include "isolux/radiosity/spatial_order.h"
-
 namespace isolux {
 
 DirectFinish::DirectFinish(const Solution& solution, const RayCaster& rays)
     : lights_(rays), direct_(solution.mesh.vertices().size()) {
   const auto vertices = solution.mesh.vertices();
-  std::vector<Vec3> places;
-  for (const Vertex& v : vertices) places.push_back(v.position);
-  const std::vector<std::uint32_t> order = z_order(places);
   std::vector<Receiver> receivers;
-  for (const std::uint32_t v : order) {
-    receivers.push_back({vertices[v].gather_point, vertices[v].normal});
-  }
-  std::vector<Rgb> irradiance(order.size());
-  std::vector<double> deviation(order.size());
-  lights_.irradiance(receivers, irradiance, deviation);
-  for (std::size_t i = 0; i < order.size(); ++i) direct_[order[i]] = irradiance[i];
+  for (const Vertex& v : vertices) receivers.push_back({v.gather_point, v.normal});
+  std::vector<double> deviation(receivers.size());
+  lights_.irradiance(receivers, direct_, deviation);
 }
 
 void DirectFinish::apply(std::span<SurfaceSample> samples) const {

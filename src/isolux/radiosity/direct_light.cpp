@@ -6,6 +6,7 @@
 #include "isolux/core/parallel.h"
 #include "isolux/radiosity/form_factor.h"
 #include "isolux/radiosity/light_lattice.h"
+#include "isolux/radiosity/spatial_order.h"
 
 namespace isolux {
 namespace {
@@ -46,6 +47,26 @@ bool may_see(const Piece& piece, const Receiver& receiver, double epsilon) {
   return std::any_of(
       piece.corners.begin(), piece.corners.begin() + piece.corner_count,
       [&](const Vec3& corner) { return dot(corner - receiver.point, receiver.normal) > epsilon; });
+}
+
+/// The receivers in an order in which those that face alike and stand close together are
+/// neighbours.
+std::vector<Index> in_groups(std::span<const Receiver> receivers) {
+  std::array<std::vector<Index>, 6> facing;  // by the axis that the normal is nearest to
+  for (Index i = 0; i < receivers.size(); ++i) {
+    const Vec3& n = receivers[i].normal;
+    int axis = 0;
+    for (int k = 1; k < 3; ++k) axis = std::abs(n[k]) > std::abs(n[axis]) ? k : axis;
+    facing[static_cast<std::size_t>(2 * axis + (n[axis] < 0))].push_back(i);
+  }
+  std::vector<Index> order;
+  std::vector<Vec3> points;
+  for (const std::vector<Index>& alike : facing) {
+    points.clear();
+    for (const Index i : alike) points.push_back(receivers[i].point);
+    for (const Index k : z_order(points)) order.push_back(alike[k]);
+  }
+  return order;
 }
 
 /// What is found out about one light by a group of receivers; kept for its memory.
@@ -366,15 +387,20 @@ DirectLight::DirectLight(const RayCaster& rays)
 
 void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
                              std::span<double> error) const {
+  const std::vector<Index> order = in_groups(receivers);
   parallel_for(receivers.size(), kGroup, [&](std::size_t begin, std::size_t end) {
     const std::size_t n = end - begin;
-    std::fill_n(irradiance.begin() + begin, n, Rgb{});
+    std::array<Receiver, kGroup> group;
+    std::array<Rgb, kGroup> sum{};
     std::array<double, kGroup> variance{};
+    for (std::size_t i = 0; i < n; ++i) group[i] = receivers[order[begin + i]];
     for (const auto& light : lights_) {
-      Group(rays_, *light, receivers.subspan(begin, n))
-          .light_up(irradiance.subspan(begin, n), variance);
+      Group(rays_, *light, std::span(group).first(n)).light_up(sum, variance);
     }
-    for (std::size_t i = 0; i < n; ++i) error[begin + i] = std::sqrt(variance[i]);
+    for (std::size_t i = 0; i < n; ++i) {
+      irradiance[order[begin + i]] = sum[i];
+      error[order[begin + i]] = std::sqrt(variance[i]);
+    }
   });
 }
 

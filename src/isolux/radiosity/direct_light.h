@@ -35,9 +35,8 @@ class DirectLight {
   std::span<const std::uint8_t> separate() const { return separate_; }
 
   /// The direct irradiance (lx) at each receiver, and one standard deviation of its luminance (lx).
-  /// Neighbours in the list should be neighbours in space: groups of them share what is found out.
-  /// Runs in parallel; each value depends on its group only, which is given by its place in the
-  /// list.
+  /// Groups of those that stand close together and face alike share what is found out. Runs in
+  /// parallel; a value depends on the list, not on the number of threads.
   void irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
                   std::span<double> error) const;
 

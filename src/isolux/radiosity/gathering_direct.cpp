@@ -22,23 +22,19 @@ void Gathering::light_newborn() {
   const std::size_t first = state_.light.size(), n = mesh_.vertices().size();
   state_.light.resize(n);
   state_.sent.resize(n);
-  std::vector<Vec3> points;
-  for (std::size_t v = first; v < n; ++v) points.push_back(mesh_.vertex(VertexId(v)).position);
-  const std::vector<std::uint32_t> order = z_order(points);
   std::vector<Receiver> receivers;
-  for (std::uint32_t i : order) {
-    const Vertex& vertex = mesh_.vertex(static_cast<VertexId>(first + i));
+  for (std::size_t v = first; v < n; ++v) {
+    const Vertex& vertex = mesh_.vertex(static_cast<VertexId>(v));
     receivers.push_back({vertex.gather_point, vertex.normal});
   }
-  std::vector<Rgb> irradiance(order.size());
-  std::vector<double> deviation(order.size());
+  std::vector<Rgb> irradiance(receivers.size());
+  std::vector<double> deviation(receivers.size());
   lights_.irradiance(receivers, irradiance, deviation);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    VertexLight& light = state_.light[first + order[i]];
-    light.direct = irradiance[i];
-    light.direct_deviation = deviation[i];
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
+    state_.light[first + i].direct = irradiance[i];
+    state_.light[first + i].direct_deviation = deviation[i];
+    sum_up(static_cast<VertexId>(first + i));
   }
-  for (std::size_t v = first; v < n; ++v) sum_up(VertexId(v));
 }
 
 /// The surface over the middles of `chosen` edges, and E_d there.
