@@ -155,7 +155,42 @@ void Gathering::split_worst(std::span<const Edge> edges, double total, double ta
     taken -= minus_share;
     worst.push_back(edges[i]);
   }
-  split(worst, middles_of(worst));
+  split_all(worst);
+}
+
+/// Splits these edges, and before them sides that are much longer than they are, of which they
+/// would leave slivers (the longest first: Rivara 1984).
+void Gathering::split_all(std::span<const Edge> edges) {
+  const std::vector<Edge> longer = longer_sides(edges);
+  const std::vector<Middle> middles = middles_of(edges);
+  split(longer, middles_of(longer));
+  split(edges, middles);
+}
+
+/// The longest sides of the triangles at these edges, where they are much longer.
+std::vector<Edge> Gathering::longer_sides(std::span<const Edge> edges) const {
+  constexpr double kMuchLonger = 1.8;
+  const auto length_of = [&](VertexId a, VertexId b) {
+    return distance(mesh_.vertex(a).position, mesh_.vertex(b).position);
+  };
+  std::vector<Edge> longer;
+  for (const Edge& e : edges) {
+    const double own = length_of(e.a, e.b);
+    for (const auto& id : {mesh_.triangle_at(e.a, e.b), mesh_.triangle_at(e.b, e.a)}) {
+      if (!id) continue;
+      const auto& v = mesh_.triangle(*id).vertices;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [a, b] = std::minmax(v[k], v[(k + 1) % 3]);
+        if (length_of(a, b) > kMuchLonger * own) longer.push_back({a, b, 0});
+      }
+    }
+  }
+  const auto by_ends = [](const Edge& e, const Edge& f) { return e.key() < f.key(); };
+  std::sort(longer.begin(), longer.end(), by_ends);
+  longer.erase(std::unique(longer.begin(), longer.end(),
+                           [](const Edge& e, const Edge& f) { return e.key() == f.key(); }),
+               longer.end());
+  return longer;
 }
 
 /// Makes the middles vertices; E_i is interpolated.

@@ -270,6 +270,9 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     }
   });
   state_.statistics.refinement_rays += suspect.size() * square_of(state_.grid);
+  std::vector<Gathered> gathered(suspect.size());
+  std::vector<std::size_t> costly;
+  std::vector<Edge> to_split;
   double foreseen = 0, found = 0, chance = 0;
   for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
     const Edge& edge = suspect[i];
@@ -278,26 +281,34 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
       state_.indirect_error[edge.key()] = 0;
       continue;
     }
-    const Gathered gathered = gather(rows[i]);
+    gathered[i] = gather(rows[i]);
     const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
-    const double e = luminance((a.indirect + b.indirect) / 2 - gathered.irradiance);
-    const double noise =
-        square(gathered.error) + (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
+    const double e = luminance((a.indirect + b.indirect) / 2 - gathered[i].irradiance);
+    const double noise = square(gathered[i].error) +
+                         (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
     const double clean = std::sqrt(std::max(0.0, e * e - noise));
     state_.indirect_error[edge.key()] = static_cast<float>(std::copysign(clean, e));
     found += (e * e - noise) * edge.area;
     chance += square(noise * edge.area);
     if (cost(edge, clean) <= allowed && !stands_out(edge, clean)) continue;
+    costly.push_back(i);
+    to_split.push_back(edge);
+  }
+  learn_bend(foreseen, found, chance, suspect.size());
+
+  const std::vector<Edge> longer = longer_sides(to_split);
+  split(longer, middles_of(longer));
+  glimpse();
+  for (const std::size_t i : costly) {
     const std::size_t v = mesh_.vertices().size();
-    split({&edge, 1}, {&middles[i], 1});
+    split({&suspect[i], 1}, {&middles[i], 1});
     if (mesh_.vertices().size() == v) continue;
     VertexLight& light = state_.light[v];
     give_links(static_cast<VertexId>(v), std::move(rows[i]));
-    light.indirect = gathered.irradiance;
-    light.indirect_deviation = gathered.error;
+    light.indirect = gathered[i].irradiance;
+    light.indirect_deviation = gathered[i].error;
     sum_up(static_cast<VertexId>(v));
   }
-  learn_bend(foreseen, found, chance, suspect.size());
 }
 
 /// e of E_i in the middle of an edge: as it was found, or as a rule.

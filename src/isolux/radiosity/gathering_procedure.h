@@ -66,6 +66,8 @@ class Gathering {
   void sample(std::span<const Edge> edges);
   double direct_mean_square(std::span<const Edge> edges);
   void split_worst(std::span<const Edge> edges, double total, double target);
+  void split_all(std::span<const Edge> edges);
+  std::vector<Edge> longer_sides(std::span<const Edge> edges) const;
   void split(std::span<const Edge> edges, std::span<const Middle> middles);
 
   // E_i
