@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "isolux/core/error.h"
 #include "isolux/core/parallel.h"
 #include "isolux/core/random.h"
+#include "isolux/discretization/coverage.h"
 #include "isolux/radiosity/solve.h"
 #include "support/scenes.h"
 
@@ -151,6 +154,27 @@ TEST(Gathering, ASceneWithoutLightIsRefused) {
                               "material: m}]"),
                      to_tolerance(0.01)),
                InputError);
+}
+
+TEST(Gathering, LeavesFewThinTrianglesAndNothingBare) {
+  const Scene scene = paper_room();
+  const RayCaster rays(scene);
+  const Solved solved = solve(scene, to_tolerance(0.01));
+  const Triangulation& mesh = solved.mesh;
+  double thin = 0;
+  for (const Triangle& t : mesh.triangles()) {
+    double least = 180;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.vertex(t.vertices[k]).position;
+      const Vec3 a = mesh.vertex(t.vertices[(k + 1) % 3]).position - p;
+      const Vec3 b = mesh.vertex(t.vertices[(k + 2) % 3]).position - p;
+      least = std::min(least, angle_between(a, b) * 180 / std::numbers::pi);
+    }
+    thin += t.alive && least < 15;
+  }
+  EXPECT_LT(thin, 0.03 * static_cast<double>(mesh.triangle_count()));
+  const Coverage coverage = coverage_of(mesh, rays, 100'000, 1);
+  EXPECT_GT(coverage.covered, 0.995 * coverage.area);
 }
 
 }  // namespace
