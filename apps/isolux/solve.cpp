@@ -132,9 +132,10 @@ std::string summary(const Arguments& a, const Statistics& s) {
                        a.output.string(), s.iterations, s.triangles, s.mesh_area, s.wall_seconds);
   }
   return fmt::format(
-      "{}{}: {:.4g} lx on average, ± {} estimated, {} triangles on {:.3g} m², {:.1f} s", ending(s),
-      a.output.string(), s.mean_irradiance, percent(s.error), s.triangles, s.mesh_area,
-      s.wall_seconds);
+      "{}{}: {:.4g} lx on average, {}, {} triangles on {:.3g} m², {:.1f} s", ending(s),
+      a.output.string(), s.mean_irradiance,
+      s.error > 0 ? fmt::format("± {} estimated", percent(s.error)) : "error not estimated yet",
+      s.triangles, s.mesh_area, s.wall_seconds);
 }
 
 /// What the user should know before trusting the numbers of the paper's method; empty where
