@@ -55,11 +55,10 @@ struct GatheringState {
   int tries = 0;     // levels below the tolerance asked for
   int grid = 0;      // rays over a hemisphere: cells a side
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
-  double bend_scale =
-      0.7;                // what is foreseen of the errors of interpolating E_i is right times this
-  double bias = 0;        // mean of direct_error, lx
-  Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
-  double deviation = 0;   // root mean square of σ, lx
+  double bend_scale = 0.7;  // the rule for errors of interpolating E_i is right times this
+  double bias = 0;          // mean of direct_error, lx
+  Rgb balance = gray(1);    // what is gathered is put right by, so that all light sent arrives
+  double deviation = 0;     // root mean square of σ, lx
   Statistics statistics;
 };
 
