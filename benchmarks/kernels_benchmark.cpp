@@ -74,11 +74,10 @@ void mesh_rays_by_brute_force(benchmark::State& state) {
     for (std::size_t i = 0; i < n; ++i) {
       const Segment& s = work().segments[i];
       for (const Triangle& t : mesh.triangles()) {
-        TriangleHit hit;
         benchmark::DoNotOptimize(intersect_triangle(
             {mesh.vertex(t.vertices[0]).position, mesh.vertex(t.vertices[1]).position,
              mesh.vertex(t.vertices[2]).position},
-            {s.from, s.to - s.from}, hit));
+            {s.from, s.to - s.from}));
       }
     }
   }

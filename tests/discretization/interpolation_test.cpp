@@ -20,11 +20,18 @@ Triangulation cross(Light light) {
 
 TEST(Interpolation, IsLinearInATriangle) {
   const Triangulation mesh = cross([](double x, double y) { return 1 + 2 * x + 3 * y; });
-  const MeshRays rays(mesh);
-  std::vector<MeshHit> hits;
-  rays.all_hits({{0.1, 0.05, 1}, {0, 0, -1}}, {}, hits);
-  ASSERT_EQ(hits.size(), 1u);
-  EXPECT_NEAR(interpolate_irradiance(mesh, hits[0]).r, 1 + 2 * 0.1 + 3 * 0.05, 1e-12);
+  const TriangleId triangle = mesh.triangle_at(0, 1).value();
+  const MeshPlace place = place_in(mesh, triangle, {0.2, 0.1, 0});
+  EXPECT_NEAR(interpolate_irradiance(mesh, place).r, 1 + 2 * 0.2 + 3 * 0.1, 1e-12);
+}
+
+TEST(Interpolation, OfAPointNextToATriangleIsThatOfItsSide) {
+  const Triangulation mesh = cross([](double x, double y) { return 1 + 2 * x + 3 * y; });
+  const MeshPlace place =
+      place_in(mesh, mesh.triangle_at(0, 1).value(), {0.2 + 1e-9, 0.2 + 1e-9, 0});
+  EXPECT_NEAR(place.weights[0] + place.weights[1] + place.weights[2], 1, 1e-12);
+  for (const double w : place.weights) EXPECT_GE(w, 0);
+  EXPECT_NEAR(interpolate_irradiance(mesh, place).r, 2, 1e-7);
 }
 
 TEST(Extrapolation, OfEqualLightIsThatLight) {

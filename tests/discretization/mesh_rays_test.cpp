@@ -39,13 +39,11 @@ TEST(MeshRays, FindTheSameTrianglesWhetherInTheTreeOrNewborn) {
       std::size_t expected = 0;
       for (TriangleId t = 0; t < square.mesh.triangles().size(); ++t) {
         const auto& v = square.mesh.triangle(t).vertices;
-        TriangleHit hit;
-        expected += square.mesh.triangle(t).alive &&
-                    intersect_triangle(
-                        {square.mesh.vertex(v[0]).position, square.mesh.vertex(v[1]).position,
-                         square.mesh.vertex(v[2]).position},
-                        ray, hit) &&
-                    hit.t > 0;
+        const std::optional<double> at = intersect_triangle(
+            {square.mesh.vertex(v[0]).position, square.mesh.vertex(v[1]).position,
+             square.mesh.vertex(v[2]).position},
+            ray);
+        expected += square.mesh.triangle(t).alive && at && *at > 0;
       }
       EXPECT_EQ(hits.size(), expected);
       EXPECT_LE(hits.size(), 1u) << "triangles of a plane do not overlap";

@@ -22,7 +22,7 @@ SurfaceHit hit_at(double t, const Vec3& normal = kUp) { return {t, {0, 0, 1 - t}
 TEST(Pairing, TakesTheClosestFirst) {
   const Triangulation mesh = triangle_at(0);
   const SurfaceHit scene[] = {hit_at(0.99), hit_at(1.005)};
-  const MeshHit mesh_hits[] = {{1.0, 0, {}}, {1.001, 0, {}}};
+  const MeshHit mesh_hits[] = {{1.0, 0}, {1.001, 0}};
   std::vector<HitPair> pairs;
   pair_by_distance(mesh, scene, mesh_hits, 0.02, pairs);
   ASSERT_EQ(pairs.size(), 2u);
@@ -33,7 +33,7 @@ TEST(Pairing, TakesTheClosestFirst) {
 TEST(Pairing, LeavesDummiesWhereTheOtherListHasNothingNear) {
   const Triangulation mesh = triangle_at(0);
   const SurfaceHit scene[] = {hit_at(0.5), hit_at(2)};
-  const MeshHit mesh_hits[] = {{1.0, 0, {}}, {2.01, 0, {}}};
+  const MeshHit mesh_hits[] = {{1.0, 0}, {2.01, 0}};
   std::vector<HitPair> pairs;
   pair_by_distance(mesh, scene, mesh_hits, 0.02, pairs);
   ASSERT_EQ(pairs.size(), 3u);
@@ -48,7 +48,7 @@ TEST(Pairing, TheToleranceGrowsWithTheDistance) {
   std::vector<HitPair> pairs;
   for (double t : {0.1, 1.0, 10.0}) {
     const SurfaceHit scene[] = {hit_at(t)};
-    const MeshHit near[] = {{t * 1.019, 0, {}}}, far[] = {{t * 1.021, 0, {}}};
+    const MeshHit near[] = {{t * 1.019, 0}}, far[] = {{t * 1.021, 0}};
     pair_by_distance(mesh, scene, near, 0.02, pairs);
     EXPECT_EQ(pairs[0].mesh, 0) << t;
     pair_by_distance(mesh, scene, far, 0.02, pairs);
@@ -60,7 +60,7 @@ TEST(Pairing, TheToleranceGrowsWithTheDistance) {
 // distance alone, its hit is paired with the triangle of the floor.
 TEST(Pairing, FalsePairingOfFigure1HappensOnlyAsLongAsTheFloorIsNotHitToo) {
   const Triangulation mesh = triangle_at(0);
-  const MeshHit floor_triangle[] = {{1.0, 0, {}}};
+  const MeshHit floor_triangle[] = {{1.0, 0}};
   std::vector<HitPair> pairs;
 
   // First hits only, as in the figure: the ledge at 0.99 takes the floor's triangle.

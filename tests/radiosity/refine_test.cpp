@@ -5,6 +5,7 @@
 
 #include "isolux/radiosity/solve.h"
 #include "isolux/radiosity/spatial_order.h"
+#include "isolux/radiosity/vertex_luminance.h"
 #include "support/scenes.h"
 
 namespace isolux {
@@ -95,7 +96,9 @@ TEST(Refine, TrianglesAreSplitWhereTheirLightDiffersByMoreThanTheContrast) {
     for (VertexId u : {v, w, x}) bench.mesh.vertex(u).delta_irradiance = gray(1);
     bench.mesh.vertex(x).delta_irradiance = gray(brightest);
     Refinement refinement = bench.refinement();
-    refinement.split_triangles(bench.shot_of(0));
+    VertexLuminance luminance;
+    luminance.add_newborn(bench.mesh);
+    refinement.split_triangles(bench.shot_of(0), luminance.delta_irradiance);
     EXPECT_EQ(bench.statistics.split, split ? 1u : 0u)
         << "(max − min) / mean = " << (brightest - 1) / (2 + brightest) * 3;
     EXPECT_THAT(bench.mesh.validate(), testing::IsEmpty());

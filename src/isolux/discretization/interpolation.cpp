@@ -1,13 +1,28 @@
 #include "isolux/discretization/interpolation.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace isolux {
 
-Rgb interpolate_irradiance(const Triangulation& mesh, const MeshHit& hit) {
-  const auto& corners = mesh.triangle(hit.triangle).vertices;
+MeshPlace place_in(const Triangulation& mesh, TriangleId triangle, const Vec3& point) {
+  MeshPlace place{mesh.triangle(triangle).vertices, {}};
+  const auto corner = [&](std::size_t k) { return mesh.vertex(place.vertices[k]).position; };
+  const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 next = corner((k + 1) % 3), last = corner((k + 2) % 3);
+    sum += place.weights[k] = std::max(dot(cross(last - next, point - next), normal), 0.0);
+  }
+  for (double& w : place.weights) w /= sum;
+  return place;
+}
+
+Rgb interpolate_irradiance(const Triangulation& mesh, const MeshPlace& place) {
   Rgb sum;
-  for (int k = 0; k < 3; ++k) sum += mesh.vertex(corners[k]).irradiance * hit.weights[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum += mesh.vertex(place.vertices[k]).irradiance * place.weights[k];
+  }
   return sum;
 }
 

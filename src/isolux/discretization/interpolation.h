@@ -1,14 +1,24 @@
 #pragma once
 
+#include <array>
 #include <span>
 
-#include "isolux/discretization/mesh_rays.h"
 #include "isolux/discretization/triangulation.h"
 
 namespace isolux {
 
-/// Irradiance (lx) in a triangle, linear between its vertices.
-Rgb interpolate_irradiance(const Triangulation& mesh, const MeshHit& hit);
+/// A point of a surface, as light is read off the mesh there: three vertices and their weights,
+/// which add up to 1 and none of which is negative.
+struct MeshPlace {
+  std::array<VertexId, 3> vertices{};
+  std::array<double, 3> weights{};
+};
+
+/// The place of a point of the triangle, or of one that rounding has put next to it.
+MeshPlace place_in(const Triangulation& mesh, TriangleId triangle, const Vec3& point);
+
+/// Irradiance (lx) there, linear between the vertices.
+Rgb interpolate_irradiance(const Triangulation& mesh, const MeshPlace& place);
 
 /// Irradiance (lx) at a point that no triangle covers, from the vertices it would be connected
 /// to: each weighs the angle it covers around the point, divided by its distance (§3.3.1). Zero

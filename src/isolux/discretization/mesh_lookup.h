@@ -1,19 +1,11 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 
-#include "isolux/discretization/triangulation.h"
+#include "isolux/discretization/interpolation.h"
 
 namespace isolux {
-
-/// A point of a surface, as light is read off the mesh there: three vertices and their weights,
-/// which add up to 1 and none of which is negative.
-struct MeshPlace {
-  std::array<VertexId, 3> vertices{};
-  std::array<double, 3> weights{};
-};
 
 /// Finds the triangle over a point of the true surface, for very many points. It keeps the mesh as
 /// it stood when it was built; the vertices that it gives stay valid, since ids do.

@@ -1,7 +1,8 @@
 #include "isolux/discretization/mesh_rays.h"
 
+#include <cstring>
+
 #include "isolux/core/vectorize.h"
-#include "isolux/raycast/triangle_tree.h"
 
 namespace isolux {
 namespace {
@@ -77,7 +78,7 @@ class MeshRays::Impl {
       ids.push_back(id);
       soup.triangles.push_back(triangle.vertices);
     }
-    tree = TriangleTree(std::move(soup));
+    tree = TriangleTree(soup);
     tree_end = n;
     young.clear();
   }
@@ -98,19 +99,24 @@ void MeshRays::hits_since(TriangleId first, const Ray& ray, Interval within,
                           std::vector<MeshHit>& hits) const {
   const Triangulation& mesh = impl_->mesh;
   const auto try_triangle = [&](TriangleId id) {
-    TriangleHit hit;
-    if (mesh.triangle(id).alive && intersect_triangle(corners_of(mesh, id), ray, hit) &&
-        hit.t > within.min && hit.t < within.max) {
-      hits.push_back({hit.t, id, hit.weights});
-    }
+    if (!mesh.triangle(id).alive) return;
+    const std::optional<double> t = intersect_triangle(corners_of(mesh, id), ray);
+    if (t && *t > within.min && *t < within.max) hits.push_back({*t, id});
   };
   const std::size_t begin = std::max<std::size_t>(first, impl_->tree_end);
   const std::size_t listed = impl_->tree_end + impl_->young.size();
   if (begin < listed) {
     thread_local std::vector<std::uint8_t> touched;
     touch(impl_->young, begin - impl_->tree_end, ray, touched);
+    // Few are touched: those that are not are passed by eight at a time.
     for (std::size_t i = 0; i < touched.size(); ++i) {
-      if (touched[i]) try_triangle(static_cast<TriangleId>(begin + i));
+      std::uint64_t eight = 1;
+      if (i + sizeof eight <= touched.size()) std::memcpy(&eight, &touched[i], sizeof eight);
+      if (eight == 0) {
+        i += sizeof eight - 1;
+      } else if (touched[i]) {
+        try_triangle(static_cast<TriangleId>(begin + i));
+      }
     }
   }
   for (std::size_t i = std::max(begin, listed); i < mesh.triangles().size(); ++i) {
@@ -124,17 +130,10 @@ void MeshRays::all_hits(const Ray& ray, Interval within, std::vector<MeshHit>& h
 
 void MeshRays::all_hits(std::span<const Ray> rays, Interval within,
                         std::span<std::vector<MeshHit>> hits) const {
-  thread_local std::vector<TriangleHit> found;
+  impl_->tree.all_hits(rays, within, hits);
+  // As in there, reads of many rays in a row wait for memory together.
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    found.clear();
-    hits[i].clear();
-    impl_->tree.all_hits(rays[i], within, found);
-    for (const TriangleHit& hit : found) {
-      hits[i].push_back({hit.t, impl_->ids[hit.triangle], hit.weights});
-    }
-  }
-  // The triangles lie all over memory: reads of many rays in a row wait for it together.
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (MeshHit& hit : hits[i]) hit.triangle = impl_->ids[hit.triangle];
     std::erase_if(hits[i],
                   [&](const MeshHit& hit) { return !impl_->mesh.triangle(hit.triangle).alive; });
   }

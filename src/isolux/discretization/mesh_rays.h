@@ -1,20 +1,17 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "isolux/discretization/triangulation.h"
+#include "isolux/raycast/triangle_tree.h"
 
 namespace isolux {
 
 /// A point where a ray meets a triangle of the triangulation (I_d of §3.2.3).
-struct MeshHit {
-  double t = 0;  ///< along the ray, in lengths of its direction
-  TriangleId triangle = 0;
-  std::array<double, 3> weights{};  ///< barycentric, in the order of the triangle's vertices
-};
+/// Its `triangle` is a TriangleId.
+using MeshHit = TriangleHit;
 
 /// Rays against a growing triangulation: a tree over the triangles that stood when it was last
 /// built, and a list of those born since. The triangulation must outlive it.

@@ -42,13 +42,14 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
   const Rgb emission = hit->back ? Rgb{} : object.exitance;
   const std::optional<MeshHit> mesh = paired(ray, *hit, scratch);
   if (lookup_) {
-    SurfaceSample sample = looked_up(*hit, mesh);
+    SurfaceSample sample = looked_up(ray, *hit, mesh);
     sample.exitance = emission + reflectance * sample.exitance;
     sample.reflectance = reflectance;
     return sample;
   }
   if (mesh) {
-    const Rgb irradiance = interpolate_irradiance(solution_.mesh, *mesh);
+    const Rgb irradiance = interpolate_irradiance(
+        solution_.mesh, place_in(solution_.mesh, mesh->triangle, ray.at(mesh->t)));
     return {SampleKind::interpolated, emission + reflectance * irradiance, mesh};
   }
   const SurfacePoint point{hit->point, hit->normal, hit->surface, reflectance};
@@ -58,11 +59,11 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
 }
 
 /// The irradiance, in place of the exitance, at a point of a mesh by gathering.
-SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
+SurfaceSample SurfaceSampler::looked_up(const Ray& ray, const SurfaceHit& hit,
                                         const std::optional<MeshHit>& paired) const {
   SurfaceSample sample{SampleKind::interpolated, {}, paired, {hit.point, hit.normal}};
   if (paired) {
-    sample.place = MeshPlace{solution_.mesh.triangle(paired->triangle).vertices, paired->weights};
+    sample.place = place_in(solution_.mesh, paired->triangle, ray.at(paired->t));
   } else {
     sample.kind = SampleKind::extrapolated;
     sample.place = lookup_->place(hit.point, hit.normal);
@@ -71,10 +72,7 @@ SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
     sample.kind = SampleKind::dark;
     return sample;
   }
-  const auto& [vertices, weights] = *sample.place;
-  for (std::size_t k = 0; k < 3; ++k) {
-    sample.exitance += solution_.mesh.vertex(vertices[k]).irradiance * weights[k];
-  }
+  sample.exitance = interpolate_irradiance(solution_.mesh, *sample.place);
   return sample;
 }
 

@@ -53,7 +53,8 @@ class SurfaceSampler {
  private:
   std::optional<MeshHit> paired(const Ray& ray, const SurfaceHit& hit, Scratch& scratch) const;
   std::optional<Rgb> extrapolated(const SurfacePoint& point, Scratch& scratch) const;
-  SurfaceSample looked_up(const SurfaceHit& hit, const std::optional<MeshHit>& paired) const;
+  SurfaceSample looked_up(const Ray& ray, const SurfaceHit& hit,
+                          const std::optional<MeshHit>& paired) const;
   std::optional<Rgb> stand_ins(const SurfacePoint& point, std::vector<VertexId>& near) const;
 
   const Solution& solution_;

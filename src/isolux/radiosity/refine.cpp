@@ -161,11 +161,7 @@ void Refinement::refine_triangulation(const MeshHit& mesh_hit, const SurfaceHit&
   extend_triangulation(hit, shot);
 }
 
-void Refinement::split_triangles(const Shot& shot) {
-  std::vector<double> delta;
-  for (const Vertex& vertex : mesh_.vertices()) {
-    delta.push_back(luminance(vertex.delta_irradiance));
-  }
+void Refinement::split_triangles(const Shot& shot, std::span<const double> delta) {
   const auto too_different = [&](const Triangle& triangle) {
     const auto& [v, w, x] = triangle.vertices;
     const auto [least, most] = std::minmax({delta[v], delta[w], delta[x]});

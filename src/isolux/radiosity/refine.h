@@ -37,8 +37,9 @@ class Refinement {
   void refine_from_eye(const Camera& camera);
 
   /// The last loop of procedure Radiosity: splits each triangle whose vertices' ΔE's are too
-  /// different (rule 5), at the point of the scene over its centre.
-  void split_triangles(const Shot& shot);
+  /// different (rule 5), at the point of the scene over its centre. `delta`: the luminance of each
+  /// vertex's ΔE, lx.
+  void split_triangles(const Shot& shot, std::span<const double> delta);
 
  private:
   void refine_along(const Vec3& origin, std::span<const Vec3> directions, const Shot* shot);

@@ -11,6 +11,7 @@
 #include "isolux/radiosity/refine.h"
 #include "isolux/radiosity/spatial_order.h"
 #include "isolux/radiosity/stopwatch.h"
+#include "isolux/radiosity/vertex_luminance.h"
 #include "isolux/radiosity/visibility.h"
 
 namespace isolux {
@@ -31,10 +32,8 @@ struct Brightest {
   double unshot_flux = 0;  // lm
 };
 
-Brightest brightest_triangle(const Triangulation& mesh, Selection selection) {
-  // Gathered beforehand: the loop below then walks through little memory.
-  std::vector<double> radiosity;
-  for (const Vertex& vertex : mesh.vertices()) radiosity.push_back(luminance(vertex.radiosity()));
+Brightest brightest_triangle(const Triangulation& mesh, std::span<const double> radiosity,
+                             Selection selection) {
   Brightest best;
   const auto triangles = mesh.triangles();
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -62,26 +61,30 @@ Shot take_shot(Triangulation& mesh, TriangleId id) {
   return shot;
 }
 
-/// For each vertex V ∉ T: V.ΔB ← V.ρ × T.B × F_{V–T}; V.B ← V.B + V.ΔB. Returns the number of
-/// shadow rays.
+/// For each vertex V ∉ T: V.ΔB ← V.ρ × T.B × F_{V–T}; V.B ← V.B + V.ΔB; their luminances too.
+/// Returns the number of shadow rays.
 std::uint64_t calculate_vertex_radiosities(Triangulation& mesh, SpatialOrder& spatial_order,
-                                           const Shot& shot, const RayCaster& rays,
-                                           int subdivisions) {
+                                           VertexLuminance& luminance, const Shot& shot,
+                                           const RayCaster& rays, int subdivisions) {
   constexpr std::size_t kGrain = 512;
-  const auto corners = mesh.triangle(shot.triangle).vertices;
   const std::span<const VertexId> order = spatial_order.of(mesh);
+  std::vector<double> factor(order.size());  // F_{V–T}, by vertex
   std::atomic<std::uint64_t> ray_count = 0;
   parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    const auto group = order.subspan(begin, end - begin);
-    const auto receivers = spatial_order.receivers().subspan(begin, group.size());
     std::array<double, kGrain> factors;
+    const auto receivers = spatial_order.receivers().subspan(begin, end - begin);
     ray_count += visible_form_factors(rays, shot.emitter, receivers, subdivisions,
-                                      {factors.data(), group.size()});
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      Vertex& vertex = mesh.vertex(group[i]);
-      const bool of_shot = std::find(corners.begin(), corners.end(), group[i]) != corners.end();
-      vertex.delta_irradiance = of_shot ? Rgb{} : shot.radiosity * factors[i];
+                                      {factors.data(), receivers.size()});
+    for (std::size_t i = begin; i < end; ++i) factor[order[i]] = factors[i - begin];
+  });
+  for (VertexId corner : mesh.triangle(shot.triangle).vertices) factor[corner] = 0;
+  // In the order of memory, so that it need not be waited for.
+  parallel_for(factor.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
+      Vertex& vertex = mesh.vertex(v);
+      vertex.delta_irradiance = shot.radiosity * factor[v];
       vertex.irradiance += vertex.delta_irradiance;
+      luminance.read(v, vertex);
     }
   });
   return ray_count;
@@ -152,16 +155,20 @@ Statistics transfer_energy(Triangulation& mesh, const RayCaster& rays, const Opt
     refinement.refine_from_eye(rays.scene().camera(options.camera));
   }
   SpatialOrder order;
-  Brightest brightest = brightest_triangle(mesh, options.selection);
+  VertexLuminance luminance;
+  luminance.add_newborn(mesh);
+  Brightest brightest = brightest_triangle(mesh, luminance.radiosity, options.selection);
   while (statistics.iterations < options.iterations) {
     const Shot shot = take_shot(mesh, brightest.triangle);
     statistics.shadow_rays +=
-        calculate_vertex_radiosities(mesh, order, shot, rays, options.subdivisions);
+        calculate_vertex_radiosities(mesh, order, luminance, shot, rays, options.subdivisions);
     if (options.refine) {
       refinement.refine(shot);
-      refinement.split_triangles(shot);
+      luminance.add_newborn(mesh);
+      refinement.split_triangles(shot, luminance.delta_irradiance);
+      luminance.add_newborn(mesh);
     }
-    brightest = brightest_triangle(mesh, options.selection);
+    brightest = brightest_triangle(mesh, luminance.radiosity, options.selection);
     ++statistics.iterations;
 
     statistics.converged = brightest.unshot_flux <= enough;

@@ -120,7 +120,7 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 
 class RayCaster::Impl {
  public:
-  explicit Impl(const Scene& s) : scene(s), scale(s.bounds().diagonal()) {
+  explicit Impl(const Scene& s) : scene(s) {
     rtc = rtcNewScene(device.get());
     rtcSetSceneFlags(rtc, RTC_SCENE_FLAG_ROBUST);
     primitives.reserve(scene.objects.size());
@@ -162,7 +162,6 @@ class RayCaster::Impl {
   };
 
   const Scene& scene;
-  double scale;  // the scene's diagonal, m
   std::shared_ptr<RTCDeviceTy> device = embree_device();
   RTCScene rtc = nullptr;
   std::vector<Primitive> primitives;  // by object; Embree holds pointers to them
@@ -170,12 +169,11 @@ class RayCaster::Impl {
   std::vector<Solid> solids;
 };
 
-RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+RayCaster::RayCaster(const Scene& scene)
+    : impl_(std::make_unique<Impl>(scene)), epsilon_(1e-7 * scene.bounds().diagonal()) {}
 RayCaster::~RayCaster() = default;
 
 const Scene& RayCaster::scene() const { return impl_->scene; }
-
-double RayCaster::epsilon() const { return 1e-7 * impl_->scale; }
 
 std::optional<SurfaceHit> RayCaster::nearest(const Ray& ray, Interval within) const {
   Query query;

@@ -72,7 +72,7 @@ class RayCaster {
 
   /// A length that is small against everything in the scene (1e-7 of its diagonal, m), by which
   /// points on surfaces are lifted off them.
-  double epsilon() const;
+  double epsilon() const { return epsilon_; }
 
   /// The first hit; its normal faces the ray's origin where the surface has two sides.
   std::optional<SurfaceHit> nearest(const Ray& ray, Interval within = {}) const;
@@ -111,6 +111,7 @@ class RayCaster {
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
+  double epsilon_;
 };
 
 }  // namespace isolux

@@ -7,65 +7,58 @@
 namespace isolux {
 namespace {
 
+/// Of a triangle: the points p with normal · p = offset. One cache line holds two.
+struct alignas(32) Plane {
+  Vec3 normal;
+  double offset;
+};
+
+Plane plane_of(const TriangleCorners& corners) {
+  const Vec3 normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  return {normal, dot(normal, corners[0])};
+}
+
 /// What the filter needs to know of the ray on its way through the tree.
 struct Query : RTCIntersectContext {
-  const Ray* ray;
-  Interval within;
-  const TriangleSoup* soup;
   std::vector<TriangleHit>* hits;
 };
 
-/// t and barycentric weights of the line in the triangle's plane; false where it lies in it.
-bool intersect_plane(const TriangleCorners& corners, const Ray& ray, TriangleHit& hit) {
-  const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
-  const Vec3 p = cross(ray.direction, e2);
-  const double determinant = dot(e1, p);
-  if (determinant == 0) return false;
-  const Vec3 s = ray.origin - corners[0];
-  const Vec3 q = cross(s, e1);
-  hit.weights[1] = dot(s, p) / determinant;
-  hit.weights[2] = dot(ray.direction, q) / determinant;
-  hit.weights[0] = 1 - hit.weights[1] - hit.weights[2];
-  hit.t = dot(e2, q) / determinant;
-  return std::isfinite(hit.t);
-}
-
-/// Takes every hit Embree finds into the list, refined, and lets the ray go on.
+/// Takes every hit Embree finds into the list, and lets the ray go on.
 void collect(const RTCFilterFunctionNArguments* args) {
-  auto* query = static_cast<Query*>(args->context);
   args->valid[0] = 0;
-  TriangleHit hit;
-  hit.triangle = RTCHitN_primID(args->hit, args->N, 0);
-  const auto& [a, b, c] = query->soup->triangles[hit.triangle];
-  const auto& points = query->soup->points;
-  if (!intersect_plane({points[a], points[b], points[c]}, *query->ray, hit)) return;
-  if (!(hit.t > query->within.min && hit.t < query->within.max)) return;
-  // Single precision may have let the ray in a hair outside the sides.
-  double sum = 0;
-  for (double& w : hit.weights) sum += w = std::clamp(w, 0.0, 1.0);
-  for (double& w : hit.weights) w /= sum;
-  query->hits->push_back(hit);
+  static_cast<const Query*>(args->context)
+      ->hits->push_back({0, RTCHitN_primID(args->hit, args->N, 0)});
 }
 
 }  // namespace
 
-bool intersect_triangle(const TriangleCorners& corners, const Ray& ray, TriangleHit& hit) {
+std::optional<double> intersect_triangle(const TriangleCorners& corners, const Ray& ray) {
   constexpr double kSlack = -1e-9;
-  return intersect_plane(corners, ray, hit) && hit.weights[0] >= kSlack &&
-         hit.weights[1] >= kSlack && hit.weights[2] >= kSlack;
+  const Vec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
+  const Vec3 p = cross(ray.direction, e2);
+  const double determinant = dot(e1, p);
+  const Vec3 s = ray.origin - corners[0];
+  const Vec3 q = cross(s, e1);
+  const double w1 = dot(s, p) / determinant, w2 = dot(ray.direction, q) / determinant;
+  // A determinant of zero makes weights that compare with nothing.
+  if (!(w1 >= kSlack && w2 >= kSlack && 1 - w1 - w2 >= kSlack)) return std::nullopt;
+  return dot(e2, q) / determinant;
 }
 
 struct TriangleTree::Impl {
   std::shared_ptr<RTCDeviceTy> device = embree_device();
-  TriangleSoup soup;
+  std::vector<Plane> planes;
   RTCScene scene = nullptr;
 
   ~Impl() { rtcReleaseScene(scene); }
 };
 
-TriangleTree::TriangleTree(TriangleSoup soup) : impl_(std::make_unique<Impl>()) {
-  impl_->soup = std::move(soup);
-  const auto& [vertices, triangles] = impl_->soup;
+TriangleTree::TriangleTree(const TriangleSoup& soup) : impl_(std::make_unique<Impl>()) {
+  const auto& [vertices, triangles] = soup;
+  impl_->planes.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    impl_->planes.push_back(plane_of({vertices[a], vertices[b], vertices[c]}));
+  }
   RTCDevice device = impl_->device.get();
   impl_->scene = rtcNewScene(device);
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -95,15 +88,26 @@ TriangleTree::~TriangleTree() = default;
 TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
 TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
 
-void TriangleTree::all_hits(const Ray& ray, Interval within, std::vector<TriangleHit>& hits) const {
+void TriangleTree::all_hits(std::span<const Ray> rays, Interval within,
+                            std::span<std::vector<TriangleHit>> hits) const {
   Query query;
   rtcInitIntersectContext(&query);
-  query.ray = &ray;
-  query.within = within;
-  query.soup = &impl_->soup;
-  query.hits = &hits;
-  RTCRayHit rayhit = embree_ray(ray, within.max);
-  rtcIntersect1(impl_->scene, &query, &rayhit);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits[i].clear();
+    query.hits = &hits[i];
+    RTCRayHit rayhit = embree_ray(rays[i], within.max);
+    rtcIntersect1(impl_->scene, &query, &rayhit);
+  }
+  // The planes lie all over memory: reads of many rays in a row wait for it together.
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (TriangleHit& hit : hits[i]) {
+      const auto& [normal, offset] = impl_->planes[hit.triangle];
+      hit.t = (offset - dot(normal, rays[i].origin)) / dot(normal, rays[i].direction);
+    }
+    std::erase_if(hits[i], [&](const TriangleHit& hit) {
+      return !(hit.t > within.min && hit.t < within.max);
+    });
+  }
 }
 
 }  // namespace isolux
