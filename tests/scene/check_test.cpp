@@ -66,7 +66,7 @@ objects:
 
 TEST(Check, DarknessIsNamed) {
   EXPECT_THAT(check(scene_text("    shape: {sphere: {center: [0, 0, 0], radius: 1}}\n")).warnings,
-              Contains(HasSubstr("no object emits light")));
+              Contains(HasSubstr("nothing gives light")));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "isolux/core/parallel.h"
 #include "isolux/radiosity/form_factor.h"
 #include "isolux/radiosity/light_lattice.h"
+#include "isolux/radiosity/source_light.h"
 #include "isolux/radiosity/spatial_order.h"
 
 namespace isolux {
@@ -396,6 +397,9 @@ void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb>
     for (std::size_t i = 0; i < n; ++i) group[i] = receivers[order[begin + i]];
     for (const auto& light : lights_) {
       Group(rays_, *light, std::span(group).first(n)).light_up(sum, variance);
+    }
+    for (const Source& source : rays_.scene().sources) {
+      add_source_light(rays_, source, std::span(group).first(n), sum);
     }
     for (std::size_t i = 0; i < n; ++i) {
       irradiance[order[begin + i]] = sum[i];

@@ -21,7 +21,7 @@ std::vector<std::uint8_t> separate_lights(const Scene& scene);
 
 struct LightLattice;
 
-/// The light that arrives straight from the separate lights of a scene.
+/// The light that arrives straight from the separate lights of a scene and from its sources.
 ///
 /// A light seen whole counts by the closed form (form_factor()). Elsewhere rays to the points of a
 /// lattice over the light say what of it is seen; on lattice lines between a seen and a hidden

@@ -9,6 +9,7 @@
 #include "isolux/radiosity/energy.h"
 #include "isolux/radiosity/gathering_procedure.h"
 #include "isolux/radiosity/illumination.h"
+#include "isolux/radiosity/source_light.h"
 
 namespace isolux {
 namespace {
@@ -106,7 +107,8 @@ double Gathering::unshot_part() const {
              : 1;
 }
 
-/// Of all objects, lm: of those whose area is not known, as the cover has them.
+/// Of all objects, lm: of those whose area is not known, as the cover has them. Of sources, what
+/// arrives.
 double Gathering::emitted_flux() const {
   const auto& objects = rays_.scene().objects;
   std::vector<char> area_known;
@@ -120,6 +122,7 @@ double Gathering::emitted_flux() const {
     if (!triangle.alive || area_known[object]) continue;
     flux += luminance(triangle.emission) * triangle.area;
   }
+  for (const Source& source : rays_.scene().sources) flux += arriving_flux(rays_, source);
   return flux;
 }
 
@@ -206,9 +209,8 @@ Rules gathering_rules(const Scene& scene) {
 
 void gather_radiosity(GatheringState& state, const RayCaster& rays, const Options& options,
                       const GatheringCallbacks& callbacks) {
-  const auto& objects = rays.scene().objects;
-  if (std::none_of(objects.begin(), objects.end(), [](const Object& o) { return o.emits(); })) {
-    throw InputError("the scene has no light: give an object an 'emission'");
+  if (!rays.scene().has_light()) {
+    throw InputError("the scene has no light: give an object an 'emission', or 'lights'");
   }
   Gathering(state, rays, options, callbacks).run();
 }

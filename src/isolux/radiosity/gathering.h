@@ -15,7 +15,7 @@ namespace isolux {
 /// `state` is a new one, of an empty mesh with gathering_rules(), or as a checkpoint had it: then
 /// it goes on from there, to the same bits. Afterwards each vertex has its irradiance and its
 /// error, and nothing of what the triangles sent is unshot but Statistics::unshot_flux. Throws
-/// InputError where no object emits.
+/// InputError where there is no light.
 void gather_radiosity(GatheringState& state, const RayCaster& rays, const Options& options,
                       const GatheringCallbacks& callbacks);
 

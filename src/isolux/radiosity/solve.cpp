@@ -13,6 +13,7 @@
 #include "isolux/radiosity/stopwatch.h"
 #include "isolux/radiosity/vertex_luminance.h"
 #include "isolux/radiosity/visibility.h"
+#include "isolux/scene/spelling.h"
 
 namespace isolux {
 
@@ -128,6 +129,12 @@ void check_options(const Options& options) {
 }
 
 void discretize_lights(const Scene& scene, double max_edge, Triangulation& mesh) {
+  if (!scene.sources.empty()) {
+    throw InputError(
+        fmt::format("light {} has no surface: the paper's method knows only lights "
+                    "that have one, so solve without it",
+                    in_quotes(scene.sources.front().name)));
+  }
   bool any = false;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];

@@ -118,7 +118,11 @@ SceneReport check_scene(const Scene& scene) {
     report.lights += object.emits() ? 1 : 0;
     report.flux += report.objects.back().flux;
   }
-  if (report.lights == 0) report.warnings.push_back("no object emits light: everything is black");
+  for (const Source& source : scene.sources) {
+    report.lights += 1;
+    report.flux += luminous_flux(source);
+  }
+  if (!scene.has_light()) report.warnings.push_back("nothing gives light: everything is black");
   if (report.cameras == 0) {
     report.warnings.push_back("no camera: the scene can be solved and measured, but not rendered");
   }

@@ -2,11 +2,15 @@
 
 #include "isolux/core/color.h"
 #include "isolux/geometry/shape.h"
+#include "isolux/scene/source.h"
 #include "isolux/scene/value.h"
 
 namespace isolux {
 
 /// Reads an `emission` of the shape: its exitance in lm/m².
 Rgb read_emission(const Value& emission, const Shape& shape);
+
+/// Reads an item of `lights`; one without a name gets its kind and `number`.
+Source read_source(const Value& light, std::size_t number);
 
 }  // namespace isolux

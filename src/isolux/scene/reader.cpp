@@ -111,7 +111,8 @@ Scene read_document(const YamlDocument& document) {
   ReadingContext context{document.file};
   const Value root(context, *document.root, "scene");
   check_version(root);
-  const Fields fields(root, {"isolux", "name", "unit", "materials", "objects", "cameras"});
+  const Fields fields(root,
+                      {"isolux", "name", "unit", "materials", "objects", "lights", "cameras"});
   Scene scene;
   if (const auto name = fields.find("name")) scene.name = name->text();
   if (const auto unit = fields.find("unit")) {
@@ -129,6 +130,11 @@ Scene read_document(const YamlDocument& document) {
         read_object(object.labelled("object"), scene.objects.size() + 1, materials));
   }
   if (scene.objects.empty()) objects.fail("the scene is empty: give at least one object");
+  if (const auto lights = fields.find("lights")) {
+    for (const Value& light : lights->items()) {
+      scene.sources.push_back(read_source(light.labelled("light"), scene.sources.size() + 1));
+    }
+  }
   if (const auto cameras = fields.find("cameras")) {
     for (const auto& [name, value] : cameras->entries()) {
       scene.cameras.push_back(read_camera(name, value));

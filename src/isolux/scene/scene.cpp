@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "isolux/core/error.h"
 #include "isolux/scene/spelling.h"
 
@@ -11,6 +13,12 @@ Bounds Scene::bounds() const {
   Bounds all;
   for (const Object& object : objects) all.include(object.shape->bounds());
   return all;
+}
+
+bool Scene::has_light() const {
+  return std::any_of(objects.begin(), objects.end(), [](const Object& o) { return o.emits(); }) ||
+         std::any_of(sources.begin(), sources.end(),
+                     [](const Source& s) { return max_channel(s.intensity) > 0; });
 }
 
 const Camera& Scene::camera(const std::string& wanted) const {

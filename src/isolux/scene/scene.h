@@ -9,6 +9,7 @@
 #include "isolux/core/color.h"
 #include "isolux/core/vec3.h"
 #include "isolux/geometry/shape.h"
+#include "isolux/scene/source.h"
 
 namespace isolux {
 
@@ -56,6 +57,7 @@ struct Scene {
   std::string name;
   std::vector<Material> materials;
   std::vector<Object> objects;
+  std::vector<Source> sources;  ///< lights besides the objects that emit
   std::vector<Camera> cameras;
   std::string source;      ///< the text it was read from, in the native format
   std::string unit = "m";  ///< the unit of the plain numbers in `source`
@@ -64,6 +66,8 @@ struct Scene {
   /// The camera of that name (the first where `name` is empty). Throws InputError that lists the
   /// names there are.
   const Camera& camera(const std::string& name) const;
+  /// Whether an object or a source gives light.
+  bool has_light() const;
   const Material& material_of(std::uint32_t object) const {
     return materials[objects[object].material];
   }
