@@ -11,6 +11,9 @@ namespace {
 // The part of the tolerance that interpolation of E_d may cost.
 constexpr double kDirectShare = 0.55;
 
+// Along hard shadows, edges are split to this part of the tolerance times the scene's diagonal.
+constexpr double kHairline = 0.1;
+
 // A round of splits takes on the worst edges, which make up this part of the estimated error
 // squared: the bulk criterion of Dörfler (1996).
 constexpr double kBulk = 0.7;
@@ -126,11 +129,19 @@ void Gathering::sample(std::span<const Edge> edges) {
   }
 }
 
+/// Whether an edge is too short to be split along a hard shadow, whose step no mesh ever resolves:
+/// what it is off is in the errors of its vertices, but left out of the whole.
+bool Gathering::hairline(const Edge& edge) const {
+  if (rays_.scene().sources.empty()) return false;
+  const double shortest = kHairline * state_.level * rays_.scene().bounds().diagonal();
+  return distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) < shortest;
+}
+
 double Gathering::direct_mean_square(std::span<const Edge> edges) {
   double sum = 0, bias = 0;
   for (const Edge& e : edges) {
     const auto at = state_.direct_error.find(e.key());
-    if (at == state_.direct_error.end()) continue;
+    if (at == state_.direct_error.end() || hairline(e)) continue;
     sum += cost(e, at->second);
     bias += at->second * e.area / 3;
   }
@@ -143,7 +154,7 @@ void Gathering::split_worst(std::span<const Edge> edges, double total, double ta
   std::vector<std::pair<double, std::uint32_t>> ranked;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     const double share = cost(edges[i], state_.direct_error.at(edges[i].key())) / area();
-    if (share > 0) ranked.emplace_back(-share, i);
+    if (share > 0 && !hairline(edges[i])) ranked.emplace_back(-share, i);
   }
   std::sort(ranked.begin(), ranked.end());
   // Splits leave about a tenth of an edge's cost behind; there is no need to go below the target.

@@ -64,6 +64,7 @@ class Gathering {
                      std::span<Middle> middles);
   double direct_error(const Edge& edge, const Middle& middle) const;
   void sample(std::span<const Edge> edges);
+  bool hairline(const Edge& edge) const;
   double direct_mean_square(std::span<const Edge> edges);
   void split_worst(std::span<const Edge> edges, double total, double target);
   void split_all(std::span<const Edge> edges);
