@@ -1,0 +1,65 @@
+#include "isolux/formats/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "isolux/core/error.h"
+#include "isolux/scene/reader.h"
+#include "isolux/scene/spelling.h"
+
+namespace isolux {
+namespace {
+
+struct FormatReader {
+  std::string_view name;
+  std::vector<std::string_view> extensions;
+  SceneFile (*read)(const std::filesystem::path& path);
+};
+
+const std::vector<FormatReader>& format_readers() {
+  static const std::vector<FormatReader> all{
+      {"isolux",
+       {".yaml", ".yml"},
+       [](const std::filesystem::path& path) {
+         return SceneFile{load_scene(path), {}};
+       }},
+  };
+  return all;
+}
+
+const FormatReader& reader_for(const std::filesystem::path& path, const std::string& format) {
+  const auto& readers = format_readers();
+  if (!format.empty()) {
+    const auto found = std::find_if(readers.begin(), readers.end(),
+                                    [&](const FormatReader& r) { return r.name == format; });
+    if (found != readers.end()) return *found;
+    std::vector<std::string_view> names;
+    for (const FormatReader& reader : readers) names.push_back(reader.name);
+    throw InputError(
+        fmt::format("unknown format {}: {}", in_quotes(format), suggestion(format, names)));
+  }
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const FormatReader& reader : readers) {
+    const auto& known = reader.extensions;
+    if (std::find(known.begin(), known.end(), extension) != known.end()) return reader;
+  }
+  return readers.front();
+}
+
+}  // namespace
+
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const FormatReader& reader : format_readers()) names.emplace_back(reader.name);
+  return names;
+}
+
+SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format) {
+  return reader_for(path, format).read(path);
+}
+
+}  // namespace isolux
