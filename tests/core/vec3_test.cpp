@@ -41,5 +41,15 @@ TEST(Bounds, GrowFromNothing) {
   EXPECT_EQ(box.center(), (Vec3{1, 2, 4}));
 }
 
+TEST(Vec3, AUnitVectorStaysAsItIs) {
+  for (const Vec3& a : {Vec3{1, 2, 3}, Vec3{-0.1, 0.7, 1e-9}, Vec3{5, 1e3, -2}, Vec3{3, 4, 0}}) {
+    const Vec3 unit = normalized(a);
+    EXPECT_TRUE(is_unit(unit));
+    EXPECT_EQ(unit_vector(unit), unit);
+    EXPECT_FALSE(is_unit(a));
+    EXPECT_EQ(unit_vector(a), unit);
+  }
+}
+
 }  // namespace
 }  // namespace isolux

@@ -13,6 +13,7 @@ BEYOND_SCHEMA = {
     "both-sides-of-solid",
     "camera-looks-at-itself",
     "camera-up-along-view",
+    "complement-of-open-shape",
     "csg-of-open-shape",
     "degenerate-shape",
     "disjoint-intersection",

@@ -121,6 +121,18 @@ TEST(ShapeReader, CsgNestsAndTransformsWithin) {
   EXPECT_NEAR(thickness(*solid, kAlongX), 30, 1e-9);
 }
 
+TEST(ShapeReader, AComplementIsTheSolidSeenFromInside) {
+  const auto hollow = shape("complement: {union: [" + kBalls + "]}");
+  EXPECT_TRUE(hollow->solid());
+  EXPECT_TRUE(hollow->unbounded());
+  EXPECT_FALSE(hollow->contains({1, 0, 0}));
+  EXPECT_TRUE(hollow->contains({5, 0, 0}));
+  Hits hits;
+  hollow->intersect(kAlongX, hits);
+  ASSERT_EQ(hits.size(), 2u);
+  expect_near(hits[0].normal, {1, 0, 0});
+}
+
 TEST(ShapeReader, AUnionOfThousandsIsNoDeepTree) {
   std::string text = "union: [";
   for (int i = 0; i < 20'000; ++i) {

@@ -40,6 +40,16 @@ inline Vec3 normalized(const Vec3& a) {
   return l > 0 ? a / l : a;
 }
 
+/// Whether `a` has length 1 within rounding.
+constexpr bool is_unit(const Vec3& a) {
+  const double off = length_squared(a) - 1;
+  return -4e-15 < off && off < 4e-15;
+}
+
+/// The same as normalized(), but a unit vector stays as it is, so that one that was written can be
+/// read back to the last bit.
+inline Vec3 unit_vector(const Vec3& a) { return is_unit(a) ? a : normalized(a); }
+
 /// The unit direction of `a` in the plane that the unit vector `normal` stands on.
 inline Vec3 tangential(const Vec3& a, const Vec3& normal) {
   return normalized(a - normal * dot(a, normal));

@@ -5,6 +5,7 @@
 #include "isolux/core/error.h"
 #include "isolux/core/vectorize.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -131,6 +132,10 @@ std::optional<TriangleSoup> Box::triangulate(double max_edge) const {
     }
   }
   return soup;
+}
+
+ShapeDescription Box::describe() const {
+  return {"box", {{"lower", lower_}, {"upper", upper_}}, {}, {}};
 }
 
 }  // namespace isolux

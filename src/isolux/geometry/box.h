@@ -21,6 +21,7 @@ class Box final : public Shape {
   std::uint32_t face_count() const override { return 6; }
   std::optional<double> area() const override;
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
  private:
   /// The piece of a line inside the box, with the faces at its ends.

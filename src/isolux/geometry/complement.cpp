@@ -1,6 +1,7 @@
 #include "isolux/geometry/complement.h"
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -49,6 +50,17 @@ void Complement::intersect_part(std::size_t part, const Ray& ray, Hits& hits) co
 
 bool Complement::part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const {
   return shape_->part_occludes(part, ray, t_min, t_max);
+}
+
+ShapeDescription Complement::describe() const {
+  ShapeDescription inner = shape_->describe();
+  if (inner.kind == "box" && !inner.flag("inward")) {
+    inner.fields.push_back({"inward", true});
+    return inner;
+  }
+  ShapeDescription complement{"complement", {}, {}, {}};
+  complement.operands.push_back(std::move(inner));
+  return complement;
 }
 
 }  // namespace isolux

@@ -25,6 +25,7 @@ class Complement final : public Shape {
   std::uint32_t face_count() const override { return shape_->face_count(); }
   std::optional<double> area() const override { return shape_->area(); }
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
   std::size_t part_count() const override { return shape_->part_count(); }
   Bounds part_bounds(std::size_t part) const override { return shape_->part_bounds(part); }

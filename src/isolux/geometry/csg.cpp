@@ -1,6 +1,7 @@
 #include "isolux/geometry/csg.h"
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/shape_description.h"
 
 namespace isolux {
 namespace {
@@ -101,5 +102,23 @@ bool Csg::contains(const Vec3& point) const {
 }
 
 bool Csg::unbounded() const { return combine(a_->unbounded(), b_->unbounded()); }
+
+ShapeDescription Csg::describe() const {
+  const std::string_view kind = operation_ == CsgOperation::unite       ? "union"
+                                : operation_ == CsgOperation::intersect ? "intersection"
+                                                                        : "difference";
+  // (a ∘ b) ∘ c is a list of three; of a difference all that is subtracted is one union.
+  ShapeDescription csg{kind, {}, {}, {}};
+  const auto take = [&](ShapeDescription operand, std::string_view listed) {
+    if (operand.kind != listed || operand.transform) {
+      csg.operands.push_back(std::move(operand));
+      return;
+    }
+    for (ShapeDescription& each : operand.operands) csg.operands.push_back(std::move(each));
+  };
+  take(a_->describe(), kind);
+  take(b_->describe(), operation_ == CsgOperation::subtract ? "union" : kind);
+  return csg;
+}
 
 }  // namespace isolux

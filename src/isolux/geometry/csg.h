@@ -26,6 +26,7 @@ class Csg final : public Shape {
   bool contains(const Vec3& point) const override;
   bool unbounded() const override;
   std::uint32_t face_count() const override { return a_->face_count() + b_->face_count(); }
+  ShapeDescription describe() const override;
 
  private:
   bool combine(bool in_a, bool in_b) const;

@@ -6,6 +6,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -20,7 +21,7 @@ Disk::Disk(const Vec3& center, const Vec3& normal, double radius, double inner_r
     throw InputError(fmt::format("inner_radius: must be less than the radius, but {} >= {}",
                                  inner_radius, radius));
   }
-  normal_ = normalized(normal);
+  normal_ = unit_vector(normal);
 }
 
 Bounds Disk::bounds() const {
@@ -56,6 +57,13 @@ std::optional<TriangleSoup> Disk::triangulate(double max_edge) const {
 
 Vec3 circle_extent(const Vec3& n, double radius) {
   return Vec3{std::hypot(n.y, n.z), std::hypot(n.z, n.x), std::hypot(n.x, n.y)} * radius;
+}
+
+ShapeDescription Disk::describe() const {
+  ShapeDescription disk{
+      "disk", {{"center", center_}, {"normal", normal_}, {"radius", radius_}}, {}, {}};
+  if (inner_radius_ > 0) disk.fields.push_back({"inner_radius", inner_radius_});
+  return disk;
 }
 
 }  // namespace isolux

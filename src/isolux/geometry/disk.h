@@ -17,6 +17,7 @@ class Disk final : public Shape {
   bool contains(const Vec3&) const override { return false; }
   std::optional<double> area() const override;
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
  private:
   std::optional<PlaneHit> hit(const Ray& ray) const;

@@ -6,6 +6,7 @@
 #include "isolux/core/vectorize.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -73,6 +74,7 @@ struct Frustum::Crossings {
 Frustum::Frustum(const Vec3& start, const Vec3& end, double start_radius, double end_radius,
                  bool capped)
     : start_(start),
+      end_(end),
       frame_(normalized(end - start)),
       length_(distance(start, end)),
       start_radius_(start_radius),
@@ -263,6 +265,18 @@ std::optional<TriangleSoup> Frustum::triangulate(double max_edge) const {
     append(soup, disk_triangles(end, frame_.n, end_radius_, 0, segments, max_edge));
   }
   return soup;
+}
+
+ShapeDescription Frustum::describe() const {
+  ShapeDescription frustum{"cone", {{"from", start_}, {"to", end_}}, {}, {}};
+  if (start_radius_ == end_radius_) {
+    frustum.kind = "cylinder";
+    frustum.fields.push_back({"radius", start_radius_});
+  } else {
+    frustum.fields.push_back({"radii", std::vector{start_radius_, end_radius_}});
+  }
+  if (!capped_) frustum.fields.push_back({"open", true});
+  return frustum;
 }
 
 }  // namespace isolux

@@ -21,6 +21,7 @@ class Frustum : public Shape {
   std::uint32_t face_count() const override { return capped_ ? 3 : 1; }
   std::optional<double> area() const override;
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
  private:
   /// A hit before its point and normal are known.
@@ -37,7 +38,7 @@ class Frustum : public Shape {
   Hit hit(const Line& line, const Crossing& crossing) const;
   TriangleSoup side_triangles(double segments, double max_edge) const;
 
-  Vec3 start_;
+  Vec3 start_, end_;
   Frame frame_;  ///< its third axis runs from start to end
   double length_;
   double start_radius_, end_radius_;

@@ -2,6 +2,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -90,6 +91,12 @@ void Instance::intersect_part(std::size_t part, const Ray& ray, Hits& hits) cons
 
 bool Instance::part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const {
   return shape_->part_occludes(part, to_shape(ray), t_min, t_max);
+}
+
+ShapeDescription Instance::describe() const {
+  ShapeDescription shape = shape_->describe();
+  shape.transform = shape.transform ? map_ * *shape.transform : map_;
+  return shape;
 }
 
 }  // namespace isolux

@@ -25,6 +25,7 @@ class Instance final : public Shape {
   std::optional<double> area() const override;
   /// The shape's triangles, cut so finely that they are small enough once mapped.
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
   std::size_t part_count() const override { return shape_->part_count(); }
   Bounds part_bounds(std::size_t part) const override { return mapped(shape_->part_bounds(part)); }

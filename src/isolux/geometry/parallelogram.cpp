@@ -2,6 +2,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -50,6 +51,10 @@ std::optional<double> Parallelogram::area() const { return length(cross(u_, v_))
 std::optional<TriangleSoup> Parallelogram::triangulate(double max_edge) const {
   return grid(piece_count(length(u_), max_edge), piece_count(length(v_), max_edge), false,
               [&](double a, double b) { return corner_ + u_ * a + v_ * b; });
+}
+
+ShapeDescription Parallelogram::describe() const {
+  return {"parallelogram", {{"corner", corner_}, {"u", u_}, {"v", v_}}, {}, {}};
 }
 
 }  // namespace isolux

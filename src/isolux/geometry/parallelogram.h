@@ -18,6 +18,7 @@ class Parallelogram final : public Shape {
   std::optional<double> area() const override;
   /// ⌈|u| / max_edge⌉ × ⌈|v| / max_edge⌉ cells of two triangles.
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
  private:
   std::optional<PlaneHit> hit(const Ray& ray) const;

@@ -4,6 +4,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -94,7 +95,7 @@ std::vector<Corners> clip_ears(const Flat& p, double slack) {
 
 }  // namespace
 
-Polygon::Polygon(const std::vector<Vec3>& corners) {
+Polygon::Polygon(const std::vector<Vec3>& corners) : corners_(corners) {
   constexpr std::size_t kMostCorners = 1000;
   const std::size_t n = corners.size();
   if (n < 3 || n > kMostCorners) {
@@ -162,5 +163,7 @@ std::optional<TriangleSoup> Polygon::triangulate(double max_edge) const {
   subdivide(soup, max_edge);
   return soup;
 }
+
+ShapeDescription Polygon::describe() const { return {"polygon", {{"points", corners_}}, {}, {}}; }
 
 }  // namespace isolux

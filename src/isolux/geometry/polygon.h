@@ -20,6 +20,7 @@ class Polygon final : public Shape {
   std::optional<double> area() const override;
   /// The triangles of ear clipping (Meisters 1975), cut until they are small enough.
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
  private:
   /// A corner in the plane; its z is zero.
@@ -29,7 +30,8 @@ class Polygon final : public Shape {
   Vec3 center_;
   Frame frame_{Vec3{0, 0, 1}};
   Bounds bounds_;
-  double slack_ = 0;  ///< m, what counts as zero distance
+  double slack_ = 0;           ///< m, what counts as zero distance
+  std::vector<Vec3> corners_;  ///< as given
   std::vector<Vec3> flat_;
   TriangleSoup soup_;
 };

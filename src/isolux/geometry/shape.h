@@ -10,6 +10,8 @@
 
 namespace isolux {
 
+struct ShapeDescription;
+
 /// A point where a line meets a surface.
 struct Hit {
   double t = 0;            ///< along the ray, in lengths of its direction
@@ -80,6 +82,9 @@ class Shape {
   /// Pieces that meet at an angle share no points. Nothing where the shape has no such form.
   /// Throws InputError where max_edge is not greater than 0 or makes more than 10⁶ triangles.
   virtual std::optional<TriangleSoup> triangulate(double max_edge) const;
+
+  /// What the shape was made from, such that a shape made from it has the same hits.
+  virtual ShapeDescription describe() const = 0;
 
   virtual std::size_t part_count() const { return 1; }
   virtual Bounds part_bounds(std::size_t /*part*/) const { return bounds(); }

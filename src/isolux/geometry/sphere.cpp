@@ -4,6 +4,7 @@
 
 #include "isolux/core/vectorize.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -114,6 +115,10 @@ std::optional<TriangleSoup> Sphere::triangulate(double max_edge) const {
   for (Vec3& p : soup.points) p = center_ + p * radius_;
   scale_to_area(soup, center_, *area());
   return soup;
+}
+
+ShapeDescription Sphere::describe() const {
+  return {"sphere", {{"center", center_}, {"radius", radius_}}, {}, {}};
 }
 
 }  // namespace isolux

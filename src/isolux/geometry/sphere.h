@@ -18,6 +18,7 @@ class Sphere final : public Shape {
   bool contains(const Vec3& point) const override;
   std::optional<double> area() const override;
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
  private:
   Vec3 center_;

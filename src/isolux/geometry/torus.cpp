@@ -7,6 +7,7 @@
 #include "isolux/core/error.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 
 namespace isolux {
 
@@ -68,7 +69,7 @@ struct Pieces {
 }  // namespace
 
 Torus::Torus(const Vec3& center, const Vec3& axis, double major, double minor)
-    : center_(center), frame_(normalized(axis)), major_(major), minor_(minor) {
+    : center_(center), frame_(unit_vector(axis)), major_(major), minor_(minor) {
   require_point(center, "center");
   require_direction(axis, "axis");
   require_length(major, "major_radius");
@@ -169,6 +170,14 @@ bool Torus::contains(const Vec3& point) const {
 
 std::optional<double> Torus::area() const {
   return 4 * std::numbers::pi * std::numbers::pi * major_ * minor_;
+}
+
+ShapeDescription Torus::describe() const {
+  return {
+      "torus",
+      {{"center", center_}, {"axis", frame_.n}, {"major_radius", major_}, {"minor_radius", minor_}},
+      {},
+      {}};
 }
 
 }  // namespace isolux

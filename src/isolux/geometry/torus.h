@@ -16,6 +16,7 @@ class Torus final : public Shape {
   bool solid() const override { return true; }
   bool contains(const Vec3& point) const override;
   std::optional<double> area() const override;
+  ShapeDescription describe() const override;
 
  private:
   /// A line in the torus' own frame, in lengths of its outer radius.

@@ -5,6 +5,7 @@
 #include "isolux/core/error.h"
 #include "isolux/geometry/mesh_topology.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -221,6 +222,10 @@ bool TriangleMesh::part_occludes(std::size_t part, const Ray& ray, double t_min,
                                  double t_max) const {
   const auto h = hit(part, line(ray));
   return h && h->t > t_min && h->t < t_max;
+}
+
+ShapeDescription TriangleMesh::describe() const {
+  return {"mesh", {{"points", soup_.points}, {"triangles", soup_.triangles}}, {}, {}};
 }
 
 }  // namespace isolux

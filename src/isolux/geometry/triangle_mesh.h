@@ -32,6 +32,7 @@ class TriangleMesh final : public Shape {
   std::uint32_t face_count() const override { return face_count_; }
   std::optional<double> area() const override;
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
+  ShapeDescription describe() const override;
 
   std::size_t part_count() const override { return soup_.triangles.size(); }
   Bounds part_bounds(std::size_t part) const override;

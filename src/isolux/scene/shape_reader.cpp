@@ -134,16 +134,21 @@ ShapePtr read_mesh(const Value& value) {
 
 ReadShape read_nested(const Value& value, int depth);
 
+/// A shape within that of the given key.
+ShapePtr read_solid(const Value& value, std::string_view outer, int depth) {
+  const ReadShape read = read_nested(value, depth + 1);
+  if (!read.shape->solid()) {
+    value.fail(fmt::format("{} takes closed shapes only, and this {} is open", in_quotes(outer),
+                           read.kind));
+  }
+  return read.shape;
+}
+
 /// The shapes that a CSG operation joins.
 std::vector<ShapePtr> read_solids(const Value& value, int depth) {
   std::vector<ShapePtr> solids;
   for (const Value& operand : value.items(2)) {
-    const ReadShape read = read_nested(operand, depth + 1);
-    if (!read.shape->solid()) {
-      operand.fail(fmt::format("{} takes closed shapes only, and this {} is open",
-                               in_quotes(value.label()), read.kind));
-    }
-    solids.push_back(read.shape);
+    solids.push_back(read_solid(operand, value.label(), depth));
   }
   return solids;
 }
@@ -171,6 +176,10 @@ ShapePtr read_difference(const Value& value, int depth) {
                    join(value, CsgOperation::unite, std::span(solids).subspan(1)));
 }
 
+ShapePtr read_complement(const Value& value, int depth) {
+  return make<Complement>(value, read_solid(value, value.label(), depth));
+}
+
 /// A shape that holds no others.
 template <ShapePtr (*read)(const Value&)>
 ShapePtr plain(const Value& value, int /*depth*/) {
@@ -195,6 +204,7 @@ constexpr ShapeKind kShapeKinds[] = {
     {"union", read_union},
     {"intersection", read_intersection},
     {"difference", read_difference},
+    {"complement", read_complement},
 };
 
 ReadShape read_nested(const Value& value, int depth) {

@@ -151,6 +151,7 @@ Vec3 Value::direction() const {
     fail(fmt::format("{} must not be [0, 0, 0]: give the direction it points to",
                      in_quotes(label_)));
   }
+  if (is_unit(given)) return given;
   // Divided first, so that neither huge nor tiny numbers leave the range in between.
   return normalized(Vec3{given.x / largest, given.y / largest, given.z / largest});
 }

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "isolux/core/affine.h"
+
+namespace isolux {
+
+/// A shape as the numbers it was made from, under the keys of the native scene format
+/// (docs/scene-format.md), in metres: what writers of scenes know of it.
+struct ShapeDescription {
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+  using Value = std::variant<bool, double, Vec3, std::vector<double>, std::vector<Vec3>, Triangles>;
+  struct Field {
+    std::string_view key;
+    Value value;
+  };
+
+  std::string_view kind;  ///< "sphere", "union", ...
+  std::vector<Field> fields;
+  std::vector<ShapeDescription> operands;  ///< of union, intersection, difference, complement
+  std::optional<Affine> transform;         ///< applied to all of the above
+
+  /// The value under that key; null where there is none or it is of another type.
+  template <typename T>
+  const T* find(std::string_view key) const {
+    for (const Field& field : fields) {
+      if (field.key == key) return std::get_if<T>(&field.value);
+    }
+    return nullptr;
+  }
+  bool flag(std::string_view key) const {
+    const bool* const value = find<bool>(key);
+    return value && *value;
+  }
+};
+
+}  // namespace isolux
