@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <string>
 
 #include "commands.h"
-#include "isolux/scene/reader.h"
 #include "output.h"
+#include "scene_input.h"
 
 namespace isolux {
 namespace {
@@ -26,14 +25,16 @@ std::string describe(const ObjectReport& object) {
                      "", describe(object.bounds));
 }
 
-void run(const std::filesystem::path& path) {
-  const SceneReport report = check_scene(load_scene(path));
+void run(const SceneInput& input) {
+  const SceneFile file = input.load();
+  SceneReport report = check_scene(file.scene);
+  report.warnings.insert(report.warnings.begin(), file.notes.begin(), file.notes.end());
   std::string text = fmt::format(
       "{}: {}\n"
       "objects {}, materials {}, cameras {}, lights {} with {:.6g} lm together\n"
       "plain numbers are in {}; bounds {} m\n\n"
       "   area m²    flux lm  object (material), bounds in m\n",
-      path.string(), report.name.empty() ? "(no name)" : report.name, report.objects.size(),
+      input.path.string(), report.name.empty() ? "(no name)" : report.name, report.objects.size(),
       report.materials, report.cameras, report.lights, report.flux, report.unit,
       describe(report.bounds));
   for (const ObjectReport& object : report.objects) text += describe(object);
@@ -47,11 +48,11 @@ void run(const std::filesystem::path& path) {
 }  // namespace
 
 void add_check(CLI::App& program) {
-  const auto path = std::make_shared<std::filesystem::path>();
+  const auto scene = std::make_shared<SceneInput>();
   CLI::App& command =
       *program.add_subcommand("check", "What a scene says, what in it is wrong or doubtful");
-  command.add_option("SCENE", *path, "the scene, in YAML")->required()->option_text(" ");
-  command.callback([path] { run(*path); });
+  add_scene(command, *scene);
+  command.callback([scene] { run(*scene); });
 }
 
 }  // namespace isolux

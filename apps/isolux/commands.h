@@ -12,5 +12,6 @@ void add_render(CLI::App& program);
 void add_measure(CLI::App& program);
 void add_info(CLI::App& program);
 void add_check(CLI::App& program);
+void add_convert(CLI::App& program);
 
 }  // namespace isolux

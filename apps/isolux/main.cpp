@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   isolux::add_measure(program);
   isolux::add_info(program);
   isolux::add_check(program);
+  isolux::add_convert(program);
   // Last, since subcommands take over the footer there is.
   program.footer(
       "Each has its own --help. Lengths are in m, angles in degrees.\n"

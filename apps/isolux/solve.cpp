@@ -21,19 +21,20 @@
 #include "isolux/core/version.h"
 #include "isolux/radiosity/solve.h"
 #include "isolux/radiosity/stopwatch.h"
-#include "isolux/scene/reader.h"
 #include "isolux/solution/checkpoint.h"
 #include "isolux/solution/metadata.h"
 #include "isolux/solution/solution.h"
 #include "memory.h"
 #include "output.h"
 #include "progress_line.h"
+#include "scene_input.h"
 
 namespace isolux {
 namespace {
 
 struct Arguments {
-  std::filesystem::path scene, output, stats, checkpoint, resume;
+  SceneInput scene;
+  std::filesystem::path output, stats, checkpoint, resume;
   Options options;
   double seconds = 0;    // at most; 0: no bound
   double megabytes = 0;  // at most; 0: no bound
@@ -218,7 +219,10 @@ void run(const Arguments& a) {
   if (!a.checkpoint.empty()) check_output(a.checkpoint, {".checkpoint"});
 
   const ThreadLimit limit(a.threads);
-  Scene scene = load_scene(a.scene);
+  auto [scene, notes] = a.scene.load();
+  if (!a.quiet) {
+    for (const std::string& note : notes) say("note: " + note);
+  }
   Interruption interruption;
   Solved solved = solve_with_progress(scene, a, interruption);
   interruption.ignore();
@@ -241,7 +245,7 @@ void run(const Arguments& a) {
 void add_solve(CLI::App& program) {
   const auto a = std::make_shared<Arguments>();
   CLI::App& command = *program.add_subcommand("solve", "Scene to solution: its mesh and its light");
-  command.add_option("SCENE", a->scene, "the scene, in YAML")->required()->option_text(" ");
+  add_scene(command, a->scene);
   command.add_option("-o,--output", a->output, "the solution")->required()->option_text("FILE.glb");
   CLI::Option* preset = add_preset(command, a->options);
   add_goal(command, *a, preset);

@@ -63,7 +63,7 @@ class ProgramTest(unittest.TestCase):
 
 
 class Usage(ProgramTest):
-    COMMANDS = ["solve", "render", "measure", "info", "check"]
+    COMMANDS = ["solve", "render", "measure", "info", "check", "convert"]
 
     def test_help_fits_a_screen(self):
         text = self.succeed("--help").stdout
@@ -90,6 +90,7 @@ class Usage(ProgramTest):
         for arguments in [
             [], ["nonsense"], ["--nonsense"], ["solve"], ["solve", ROOM], ["solve", *output],
             ["render", "a.glb"], ["measure", "a.glb"], ["info"], ["check"],
+            ["convert", ROOM], ["convert", *output],
             ["solve", ROOM, *output, "--nonsense"], ["solve", ROOM, ROOM, *output],
         ]:
             with self.subTest(arguments=arguments):
@@ -120,6 +121,7 @@ class BadScenes(ProgramTest):
                 place = re.escape(str(scene)) + r":\d+:\d+: .+"
                 self.fail_with(place, "solve", scene, "-o", "a.glb", "--stats", "a.json")
                 self.fail_with(place, "check", scene)
+                self.fail_with(place, "convert", scene, "-o", "a.yaml")
 
     def test_a_bad_scene_leaves_the_old_solution(self):
         self.write("a.glb", "old")
@@ -180,6 +182,7 @@ class Outputs(ProgramTest):
         self.fail_with(r"a\.txt: .*\.glb", "solve", "none", "-o", "a.txt")
         self.fail_with(r"a\.txt: .*\.json", "solve", "none", "-o", "a.glb", "--stats", "a.txt")
         self.fail_with(r"a\.jpg: .*\.png", "render", "none", "-o", "a.jpg")
+        self.fail_with(r"a\.obj: .*\.mgf", "convert", "none", "-o", "a.obj")
 
     def test_no_such_folder(self):
         self.fail_with(r"no/a\.glb: .*folder 'no'", "solve", "none", "-o", "no/a.glb")
@@ -251,6 +254,49 @@ class Work(ProgramTest):
         for size in ["0x10", "10", "10x", "x10", "-1x10", "10x10x10", "1e9x1e9", "99999999x99999999"]:
             with self.subTest(size=size):
                 self.fail_with(".*--size", "render", solution, "-o", "a.png", f"--size={size}")
+
+
+class Conversion(ProgramTest):
+    def test_a_written_scene_is_solved_like_the_one_it_was(self):
+        self.succeed("convert", ROOM, "-o", "room.yaml")
+        self.succeed("solve", "room.yaml", "-o", "again.glb", "--quiet", *SHORT)
+        first, again = self.solve("first.glb"), self.folder / "again.glb"
+        energy = re.compile(r"^energy .* lm emitted.*$", re.MULTILINE)
+        lines = [energy.findall(self.succeed("info", solution).stdout)
+                 for solution in [first, again]]
+        self.assertEqual(len(lines[0]), 1)
+        self.assertEqual(lines[0], lines[1])
+
+    def test_writing_twice_changes_nothing(self):
+        for scene in sorted((PROJECT / "examples").rglob("*.yaml")):
+            with self.subTest(scene=scene.name):
+                self.succeed("convert", scene, "-o", "once.yaml")
+                self.succeed("convert", "once.yaml", "-o", "twice.yaml")
+                self.assertEqual((self.folder / "once.yaml").read_text(),
+                                 (self.folder / "twice.yaml").read_text())
+
+    def test_the_extension_names_the_format(self):
+        for name, start in [("a.mgf", "m "), ("a.rad", "void plastic ")]:
+            result = self.succeed("convert", ROOM, "-o", name)
+            self.assertTrue((self.folder / name).read_text().startswith(start))
+            self.assertEqual(result.stdout, "")
+            self.assertRegex(result.stderr, "^isolux: note: cameras are left out")
+
+    def test_what_a_format_lacks_is_named(self):
+        die = PROJECT / "examples" / "csg" / "die.yaml"
+        self.fail_with("object '.*' can't be written: MGF has no such ", "convert", die,
+                       "-o", "die.mgf")
+
+    def test_the_format_may_be_given(self):
+        scene = self.write("room.txt", ROOM.read_text())
+        self.succeed("convert", "--format", "isolux", scene, "-o", "a.yaml")
+        self.succeed("check", "--format", "isolux", scene)
+        self.fail_with("unknown format 'isolox': did you mean 'isolux'", "check",
+                       "--format", "isolox", scene)
+
+    def test_the_input_is_not_overwritten(self):
+        scene = self.write("room.yaml", ROOM.read_text())
+        self.fail_with(".*input", "convert", scene, "-o", scene)
 
 
 class Determinism(ProgramTest):

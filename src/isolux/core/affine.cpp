@@ -25,6 +25,18 @@ Affine Affine::rotate(const Vec3& axis, double radians) {
   return map;
 }
 
+std::optional<double> Affine::similarity() const {
+  const double squared = length_squared(linear[0]);
+  if (!(squared > 0)) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double wanted = i == j ? squared : 0;
+      if (!(std::abs(dot(linear[i], linear[j]) - wanted) <= 1e-12 * squared)) return std::nullopt;
+    }
+  }
+  return std::sqrt(squared);
+}
+
 std::optional<Affine> Affine::inverse() const {
   const double det = determinant();
   const double size = length(linear[0]) * length(linear[1]) * length(linear[2]);

@@ -26,6 +26,8 @@ struct Affine {
     return linear[0] * v.x + linear[1] * v.y + linear[2] * v.z;
   }
   double determinant() const { return dot(linear[0], cross(linear[1], linear[2])); }
+  /// The factor, > 0, by which a map that keeps angles stretches; nothing for other maps.
+  std::optional<double> similarity() const;
   /// The inverse map; nothing where L is singular or not finite.
   std::optional<Affine> inverse() const;
 };

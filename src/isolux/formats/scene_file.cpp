@@ -8,6 +8,7 @@
 #include "isolux/core/error.h"
 #include "isolux/scene/reader.h"
 #include "isolux/scene/spelling.h"
+#include "isolux/scene/writer.h"
 
 namespace isolux {
 namespace {
@@ -59,7 +60,12 @@ std::vector<std::string> format_names() {
 }
 
 SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format) {
-  return reader_for(path, format).read(path);
+  SceneFile file = reader_for(path, format).read(path);
+  if (file.scene.source.empty()) {
+    // As it will be read from a saved solution: what can't be, had better be known now.
+    file.scene = read_scene(write_scene(file.scene), path.string() + " (converted)");
+  }
+  return file;
 }
 
 }  // namespace isolux

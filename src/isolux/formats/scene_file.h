@@ -21,7 +21,8 @@ std::vector<std::string> format_names();
 
 /// Reads a scene of any known format, chosen by the file's extension or, where it is not empty, by
 /// `format`, one of format_names(). Throws InputError as load_scene() does, with file, line and
-/// column in whichever file of several the fault lies, and where the extension is not known.
+/// column in whichever file of several the fault lies, and where the extension is not known. The
+/// scene has its native text as `source`, whatever the format.
 SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format = {});
 
 }  // namespace isolux

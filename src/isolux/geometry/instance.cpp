@@ -52,21 +52,9 @@ bool Instance::occludes(const Ray& ray, double t_min, double t_max) const {
 
 bool Instance::contains(const Vec3& point) const { return shape_->contains(inverse_.point(point)); }
 
-std::optional<double> Instance::similarity() const {
-  const auto& rows = map_.linear;
-  const double squared = length_squared(rows[0]);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const double wanted = i == j ? squared : 0;
-      if (std::abs(dot(rows[i], rows[j]) - wanted) > 1e-12 * squared) return std::nullopt;
-    }
-  }
-  return std::sqrt(squared);
-}
-
 std::optional<double> Instance::area() const {
   const auto original = shape_->area();
-  const auto factor = similarity();
+  const auto factor = map_.similarity();
   if (!original || !factor) return std::nullopt;
   return *original * *factor * *factor;
 }
@@ -74,7 +62,7 @@ std::optional<double> Instance::area() const {
 std::optional<TriangleSoup> Instance::triangulate(double max_edge) const {
   // No direction is stretched more than by the norm of the matrix, found here by its upper bound.
   const auto& rows = map_.linear;
-  const double stretch = similarity().value_or(
+  const double stretch = map_.similarity().value_or(
       std::sqrt(length_squared(rows[0]) + length_squared(rows[1]) + length_squared(rows[2])));
   auto soup = shape_->triangulate(max_edge / stretch);
   if (!soup) return soup;

@@ -36,8 +36,6 @@ class Instance final : public Shape {
   Ray to_shape(const Ray& ray) const;
   void to_world(Hits& hits, std::size_t first) const;
   Bounds mapped(const Bounds& box) const;
-  /// The factor of a map that keeps angles; nothing for other maps.
-  std::optional<double> similarity() const;
 
   std::shared_ptr<const Shape> shape_;
   Affine map_, inverse_;

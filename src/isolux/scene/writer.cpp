@@ -74,11 +74,13 @@ std::string flow(const Affine& map) {
   return fmt::format("[{{matrix: [{}, {}, {}]}}]", x, y, z);
 }
 
+std::size_t size_of(const ShapeDescription::Value& value) {
+  return std::visit([](const auto& v) { return size_of(v); }, value);
+}
+
 std::size_t size_of(const ShapeDescription& shape) {
   std::size_t size = shape.transform ? 12 : 0;
-  for (const auto& field : shape.fields) {
-    size += std::visit([](const auto& value) { return size_of(value); }, field.value);
-  }
+  for (const auto& field : shape.fields) size += size_of(field.value);
   for (const ShapeDescription& operand : shape.operands) size += size_of(operand);
   return size;
 }
@@ -126,6 +128,13 @@ void append_field(std::string& text, const ShapeDescription::Field& field, std::
   new_line(text, indent);
   text += field.key;
   text += ':';
+  if (size_of(field.value) <= kMostOnALine) {
+    const std::string line = flow(field.value);
+    if (indent + field.key.size() + line.size() + 2 <= kLineWidth) {
+      text += ' ' + line;
+      return;
+    }
+  }
   std::visit(
       [&](const auto& value) {
         if constexpr (requires { value.size(); }) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "isolux/formats/scene_file.h"
+
+namespace isolux {
+
+/// A scene as the command line names it.
+struct SceneInput {
+  std::filesystem::path path;
+  std::string format;  ///< empty: by the path's extension
+
+  SceneFile load() const { return load_scene_file(path, format); }
+};
+
+/// Adds the argument SCENE and the option --format.
+void add_scene(CLI::App& command, SceneInput& scene);
+
+}  // namespace isolux

@@ -1,0 +1,109 @@
+#include "isolux/formats/radiance/write_radiance.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "formats/one_object.h"
+#include "isolux/geometry/box.h"
+#include "isolux/geometry/complement.h"
+#include "isolux/geometry/cylinder.h"
+#include "isolux/geometry/disk.h"
+#include "isolux/geometry/parallelogram.h"
+#include "isolux/geometry/sphere.h"
+#include "isolux/geometry/torus.h"
+
+namespace isolux {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+using ShapePtr = std::shared_ptr<const Shape>;
+
+/// What follows the one material.
+std::string surfaces(ShapePtr shape) {
+  const std::string text = write_radiance(one_object(std::move(shape))).text;
+  return text.substr(text.find("\n\n") + 2);
+}
+
+TEST(WriteRadiance, TheWholeOfASmallScene) {
+  const WrittenScene written =
+      write_radiance(one_object(std::make_shared<Sphere>(Vec3{1, 2, 3}, 0.5)));
+  EXPECT_EQ(written.text,
+            "void plastic gray\n"
+            "0\n"
+            "0\n"
+            "5 0.5 0.5 0.5 0 0\n"
+            "\n"
+            "gray sphere thing\n"
+            "0\n"
+            "0\n"
+            "4 1 2 3 0.5\n"
+            "\n");
+  EXPECT_THAT(written.notes, IsEmpty());
+}
+
+TEST(WriteRadiance, RoundSurfacesStayRound) {
+  EXPECT_EQ(surfaces(std::make_shared<Cylinder>(Vec3{}, Vec3{0, 0, 2}, 0.5, false)),
+            "gray cylinder thing\n0\n0\n7 0 0 0 0 0 2 0.5\n\n");
+  EXPECT_EQ(surfaces(std::make_shared<Frustum>(Vec3{}, Vec3{0, 0, 2}, 1, 0.5, false)),
+            "gray cone thing\n0\n0\n8 0 0 0 0 0 2 1 0.5\n\n");
+  EXPECT_EQ(surfaces(std::make_shared<Disk>(Vec3{1, 0, 0}, Vec3{0, 0, 2}, 3, 1)),
+            "gray ring thing\n0\n0\n8 1 0 0 0 0 1 1 3\n\n");
+}
+
+TEST(WriteRadiance, WhatFacesInwardHasANameOfItsOwn) {
+  const auto inside_out = [](ShapePtr shape) {
+    return surfaces(std::make_shared<Complement>(std::move(shape)));
+  };
+  EXPECT_THAT(inside_out(std::make_shared<Sphere>(Vec3{}, 0.5)), StartsWith("gray bubble"));
+  EXPECT_THAT(inside_out(std::make_shared<Cylinder>(Vec3{}, Vec3{0, 0, 2}, 0.5, true)),
+              StartsWith("gray tube"));
+  EXPECT_THAT(inside_out(std::make_shared<Frustum>(Vec3{}, Vec3{0, 0, 2}, 0.5, 1, true)),
+              StartsWith("gray cup"));
+}
+
+TEST(WriteRadiance, FlatSurfacesBecomePolygons) {
+  EXPECT_EQ(surfaces(std::make_shared<Parallelogram>(Vec3{}, Vec3{2, 0, 0}, Vec3{0, 1, 0})),
+            "gray polygon thing\n0\n0\n12\n0 0 0\n2 0 0\n2 1 0\n0 1 0\n\n");
+  const std::string box = surfaces(std::make_shared<Box>(Vec3{}, Vec3{1, 2, 3}));
+  EXPECT_THAT(box, HasSubstr("12\n0 0 3\n1 0 3\n1 2 3\n0 2 3\n"));  // the top, from above
+}
+
+TEST(WriteRadiance, LightIsRadianceOfThePublishedEfficacy) {
+  Scene scene = one_object(std::make_shared<Disk>(Vec3{}, Vec3{0, 0, -1}, 0.5));
+  scene.objects[0].sides = Sides::front;
+  scene.objects[0].exitance = {179 * std::numbers::pi, 0, 17.9 * std::numbers::pi};
+  const WrittenScene written = write_radiance(scene);
+  double r = 0, g = 0, b = 0;
+  ASSERT_EQ(std::sscanf(written.text.c_str(), "void light gray\n0\n0\n3 %lf %lf %lf", &r, &g, &b),
+            3);
+  EXPECT_NEAR(r, 1, 1e-12);
+  EXPECT_EQ(g, 0);
+  EXPECT_NEAR(b, 0.1, 1e-12);
+  EXPECT_THAT(written.notes, ElementsAre("lights lose their reflectance"));
+  scene.materials[0].reflectance = {};
+  EXPECT_THAT(write_radiance(scene).notes, IsEmpty());
+}
+
+TEST(WriteRadiance, WhatIsLostIsNoted) {
+  Scene scene = one_object(std::make_shared<Parallelogram>(Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}));
+  EXPECT_THAT(write_radiance(scene).notes, IsEmpty());
+  scene.objects[0].sides = Sides::front;
+  scene.cameras = {{"eye", {}, {1, 0, 0}}};
+  EXPECT_THAT(write_radiance(scene).notes,
+              ElementsAre("cameras are left out (1): Radiance has none", HasSubstr("backs")));
+}
+
+TEST(WriteRadiance, TheTorusIsNamed) {
+  EXPECT_THAT(
+      refusal(write_radiance, one_object(std::make_shared<Torus>(Vec3{}, Vec3{0, 0, 1}, 2, 0.5))),
+      StartsWith("object 'thing' can't be written: Radiance has no such torus"));
+}
+
+}  // namespace
+}  // namespace isolux
