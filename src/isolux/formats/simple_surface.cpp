@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "isolux/core/error.h"
@@ -12,7 +13,7 @@
 namespace isolux {
 namespace {
 
-constexpr double kFineness = 64;  ///< edges of triangles that stand for a shape, on its diagonal
+constexpr double kFineness = 32;  ///< edges of triangles that stand for a shape, on its diagonal
 
 /// −d, without −0.
 Vec3 opposite(const Vec3& d) { return Vec3{} - d; }
@@ -146,7 +147,9 @@ std::vector<SimpleSurface> simple_surfaces(const Object& object, const SurfaceFo
   const bool fits = std::all_of(surfaces.begin(), surfaces.end(),
                                 [&](const SimpleSurface& s) { return has(format, s); });
   if (fits && !surfaces.empty()) return surfaces;
-  auto soup = object.shape->triangulate(object.shape->bounds().diagonal() / kFineness);
+  const double max_edge = shape.kind == "polygon" ? std::numeric_limits<double>::infinity()
+                                                  : object.shape->bounds().diagonal() / kFineness;
+  auto soup = object.shape->triangulate(max_edge);
   if (!soup) {
     throw InputError(
         fmt::format("object {} can't be written: {} has no such {}, and it can't be "

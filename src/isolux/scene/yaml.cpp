@@ -17,7 +17,7 @@
 namespace isolux {
 namespace {
 
-constexpr std::uint32_t kMaxNodes = 2'000'000;  ///< some 200 MB
+constexpr std::uint32_t kMaxNodes = 4'000'000;  ///< some 400 MB
 constexpr std::size_t kMaxDepth = 400;
 
 SourceLocation place(const std::string& file, const YAML::Mark& mark) {
