@@ -4,12 +4,14 @@
 #include <gmock/gmock.h>
 
 #include <numbers>
+#include <sstream>
 
 #include "formats/one_object.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/complement.h"
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
@@ -72,6 +74,39 @@ TEST(WriteRadiance, FlatSurfacesBecomePolygons) {
             "gray polygon thing\n0\n0\n12\n0 0 0\n2 0 0\n2 1 0\n0 1 0\n\n");
   const std::string box = surfaces(std::make_shared<Box>(Vec3{}, Vec3{1, 2, 3}));
   EXPECT_THAT(box, HasSubstr("12\n0 0 3\n1 0 3\n1 2 3\n0 2 3\n"));  // the top, from above
+}
+
+/// The volume that the polygons of a text enclose, m³; negative where they face inward.
+double volume(const std::string& text) {
+  std::istringstream in(text.substr(text.find(" polygon ")));
+  double sum = 0;
+  std::string word;
+  while (in >> word) {
+    if (word != "thing") continue;
+    std::size_t words = 0, integers = 0, count = 0;
+    in >> words >> integers >> count;
+    std::vector<Vec3> corners(count / 3);
+    for (Vec3& p : corners) in >> p.x >> p.y >> p.z;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      sum += dot(corners[0], cross(corners[i - 1], corners[i])) / 6;
+    }
+  }
+  return sum;
+}
+
+TEST(WriteRadiance, PolygonsFaceTheWayTheShapeDid) {
+  const auto box = std::make_shared<Box>(Vec3{1, 1, 1}, Vec3{2, 3, 4});
+  const auto room = std::make_shared<Complement>(box);
+  Affine mirror = Affine::scale({1, -1, 2});
+  mirror.linear[0].z = 0.5;
+  EXPECT_NEAR(volume(surfaces(box)), 6, 1e-12);
+  EXPECT_NEAR(volume(surfaces(room)), -6, 1e-12);
+  EXPECT_NEAR(volume(surfaces(std::make_shared<Instance>(box, mirror))), 12, 1e-12);
+  EXPECT_NEAR(volume(surfaces(std::make_shared<Instance>(room, mirror))), -12, 1e-12);
+  // Cut into triangles; their area is that of the true surface, so the volume is a little more.
+  const auto ball = std::make_shared<Sphere>(Vec3{}, 1);
+  const double egg = volume(surfaces(std::make_shared<Instance>(ball, mirror)));
+  EXPECT_NEAR(egg, 8 * std::numbers::pi / 3, 0.01 * egg);
 }
 
 TEST(WriteRadiance, LightIsRadianceOfThePublishedEfficacy) {
