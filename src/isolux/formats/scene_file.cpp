@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "isolux/core/error.h"
+#include "isolux/formats/mgf/mgf.h"
 #include "isolux/scene/reader.h"
 #include "isolux/scene/spelling.h"
 #include "isolux/scene/writer.h"
@@ -26,6 +27,7 @@ const std::vector<FormatReader>& format_readers() {
        [](const std::filesystem::path& path) {
          return SceneFile{load_scene(path), {}};
        }},
+      {"mgf", {".mgf"}, read_mgf},
   };
   return all;
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "isolux/core/error.h"
+#include "isolux/geometry/ear_clipping.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
@@ -10,95 +13,78 @@
 namespace isolux {
 namespace {
 
-using Flat = std::vector<Vec3>;  // corners in the plane, z = 0
-using Corners = std::array<std::uint32_t, 3>;
-
-/// The distance of p from the line through a and b, positive on its left.
-double side(const Vec3& a, const Vec3& b, const Vec3& p) {
-  return cross(b - a, p - a).z / distance(a, b);
-}
-
-/// Whether p lies in the triangle or within `slack` of it.
-bool in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, double slack) {
-  return side(a, b, p) >= -slack && side(b, c, p) >= -slack && side(c, a, p) >= -slack;
-}
-
-/// Whether the segments a b and c d come within `slack` of each other.
-bool meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double slack) {
-  const auto beside = [slack](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-    const double first = side(p, q, r), second = side(p, q, s);
-    return (first > slack && second > slack) || (first < -slack && second < -slack);
+void require_simple(const Flat& p, const std::vector<Ring>& rings, double slack) {
+  struct Side {
+    std::uint32_t from, to;
   };
-  const Vec3 margin = Vec3{1, 1, 1} * slack;
-  const Vec3 gap = max(max(min(a, b) - max(c, d), min(c, d) - max(a, b)) - margin, {});
-  return gap == Vec3{} && !beside(a, b, c, d) && !beside(c, d, a, b);
-}
-
-void require_simple(const Flat& p, double slack) {
-  const std::size_t n = p.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 &a = p[i], &b = p[(i + 1) % n], &c = p[(i + 2) % n];
-    if (distance(a, b) <= slack) {
-      throw InputError(
-          fmt::format("points: corners {} and {} are the same; leave one out", i, (i + 1) % n));
-    }
-    if (std::abs(side(a, b, c)) <= slack && dot(b - a, c - b) < 0) {
-      throw InputError(
-          fmt::format("points: the outline turns back on itself at corner {}; leave the corner out",
-                      (i + 1) % n));
+  std::vector<Side> sides;
+  for (const Ring& ring : rings) {
+    const std::size_t n = ring.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t at = ring[i], next = ring[(i + 1) % n];
+      const Vec3 &a = p[at], &b = p[next], &c = p[ring[(i + 2) % n]];
+      if (distance(a, b) <= slack) {
+        throw InputError(
+            fmt::format("points: corners {} and {} are the same; leave one out", at, next));
+      }
+      if (std::abs(line_distance(a, b, c)) <= slack && dot(b - a, c - b) < 0) {
+        throw InputError(fmt::format(
+            "points: the outline turns back on itself at corner {}; leave the corner out", next));
+      }
+      sides.push_back({at, next});
     }
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if ((j + 1) % n == i || !meet(p[i], p[(i + 1) % n], p[j], p[(j + 1) % n], slack)) continue;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (std::size_t j = i + 1; j < sides.size(); ++j) {
+      const auto [a, b] = sides[i];
+      const auto [c, d] = sides[j];
+      if (a == d || b == c || !segments_meet(p[a], p[b], p[c], p[d], slack)) continue;
       throw InputError(fmt::format(
           "points: the sides that start at corners {} and {} touch; order the corners so that the "
           "outline does not cross itself",
-          i, j));
+          a, c));
     }
   }
 }
 
-/// Whether the corner ring[i] can be cut off: convex, and no other corner in its triangle.
-bool is_ear(const Flat& p, const std::vector<std::uint32_t>& ring, std::size_t i, double slack) {
-  const std::size_t n = ring.size();
-  const std::uint32_t before = ring[(i + n - 1) % n], here = ring[i], after = ring[(i + 1) % n];
-  if (side(p[before], p[after], p[here]) >= -slack) return false;
-  for (const std::uint32_t k : ring) {
-    if (k == before || k == here || k == after) continue;
-    if (in_triangle(p[k], p[before], p[here], p[after], slack)) return false;
+/// Whether the ring, which does not touch q, runs around it.
+bool encloses(const Flat& p, const Ring& ring, const Vec3& q) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec3 &a = p[ring[i]], &b = p[ring[(i + 1) % ring.size()]];
+    if ((a.y > q.y) == (b.y > q.y)) continue;
+    inside ^= q.x < a.x + (q.y - a.y) / (b.y - a.y) * (b.x - a.x);
   }
-  return true;
+  return inside;
 }
 
-std::vector<Corners> clip_ears(const Flat& p, double slack) {
-  std::vector<std::uint32_t> ring(p.size());
-  for (std::uint32_t i = 0; i < ring.size(); ++i) ring[i] = i;
-  std::vector<Corners> triangles;
-  for (std::size_t i = 0, misses = 0; ring.size() > 3; ++i) {
-    const std::size_t n = ring.size();
-    if (misses == n) {
-      throw InputError("points: the polygon is too thin to be cut into triangles; widen it");
+void require_holes_inside(const Flat& p, const std::vector<Ring>& rings) {
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    for (std::size_t j = 0; j < rings.size(); ++j) {
+      if (i == j || encloses(p, rings[j], p[rings[i][0]]) == (j == 0)) continue;
+      throw InputError(fmt::format("points: the hole that starts at corner {} lies {}", rings[i][0],
+                                   j == 0 ? "outside the polygon" : "in another hole"));
     }
-    i %= n;
-    if (!is_ear(p, ring, i, slack)) {
-      ++misses;
-      continue;
-    }
-    triangles.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]});
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
-    misses = 0;
   }
-  triangles.push_back({ring[0], ring[1], ring[2]});
-  return triangles;
+}
+
+double doubled_area(const Flat& p, const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    sum += cross(p[ring[i]] - p[ring[0]], p[ring[(i + 1) % ring.size()]] - p[ring[0]]).z;
+  }
+  return sum;
 }
 
 }  // namespace
 
-Polygon::Polygon(const std::vector<Vec3>& corners) : corners_(corners) {
+Polygon::Polygon(const std::vector<Vec3>& outline, const std::vector<std::vector<Vec3>>& holes)
+    : outline_(outline), holes_(holes) {
   constexpr std::size_t kMostCorners = 1000;
+  std::vector<Vec3> corners = outline;
+  for (const auto& hole : holes) corners.insert(corners.end(), hole.begin(), hole.end());
   const std::size_t n = corners.size();
-  if (n < 3 || n > kMostCorners) {
+  if (outline.size() < 3 || n > kMostCorners) {
     throw InputError(fmt::format("points: a polygon has 3 to {} corners, not {}", kMostCorners, n));
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -106,15 +92,15 @@ Polygon::Polygon(const std::vector<Vec3>& corners) : corners_(corners) {
     bounds_.include(corners[i]);
   }
   const double size = bounds_.diagonal();
-  Vec3 doubled_area;  // Newell's normal
-  for (std::size_t i = 0; i < n; ++i) {
-    center_ += corners[i] / static_cast<double>(n);
-    doubled_area += cross(corners[i] - corners[0], corners[(i + 1) % n] - corners[0]);
+  Vec3 newell;  // twice the area, along the normal
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    center_ += outline[i] / static_cast<double>(outline.size());
+    newell += cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
   }
-  if (!(length(doubled_area) > 1e-12 * size * size)) {
+  if (!(length(newell) > 1e-12 * size * size)) {
     throw InputError("points: the polygon has no area; its corners lie on a line or cancel out");
   }
-  frame_ = Frame(normalized(doubled_area));
+  frame_ = Frame(normalized(newell));
   bounds_ = {};
   slack_ = 1e-12 * size;
   for (std::size_t i = 0; i < n; ++i) {
@@ -129,8 +115,23 @@ Polygon::Polygon(const std::vector<Vec3>& corners) : corners_(corners) {
     flat_.push_back(flatten(soup_.points.back()));
     bounds_.include(soup_.points.back());
   }
-  require_simple(flat_, slack_);
-  soup_.triangles = clip_ears(flat_, slack_);
+  std::vector<Ring> rings;
+  std::uint32_t next = 0;
+  const auto add_ring = [&](std::size_t size_of_ring) {
+    if (size_of_ring < 3) throw InputError("points: a hole has at least 3 corners");
+    Ring ring(size_of_ring);
+    std::iota(ring.begin(), ring.end(), next);
+    next += static_cast<std::uint32_t>(size_of_ring);
+    rings.push_back(std::move(ring));
+  };
+  add_ring(outline.size());
+  for (const auto& hole : holes) add_ring(hole.size());
+  require_simple(flat_, rings, slack_);
+  require_holes_inside(flat_, rings);
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    if (doubled_area(flat_, rings[i]) > 0) std::reverse(rings[i].begin(), rings[i].end());
+  }
+  soup_.triangles = clip_ears(flat_, std::move(rings), slack_);
 }
 
 Vec3 Polygon::flatten(const Vec3& point) const {
@@ -141,7 +142,7 @@ std::optional<PlaneHit> Polygon::hit(const Ray& ray) const {
   const auto h = intersect_plane(ray, center_, frame_.n);
   if (!h) return std::nullopt;
   const Vec3 p = flatten(h->point);
-  for (const Corners& t : soup_.triangles) {
+  for (const auto& t : soup_.triangles) {
     if (in_triangle(p, flat_[t[0]], flat_[t[1]], flat_[t[2]], slack_)) return h;
   }
   return std::nullopt;
