@@ -110,6 +110,50 @@ TEST(PolygonTest, EdgesAndCornersAreHit) {
   }
 }
 
+Outline square(double x, double y, double size) {
+  return {{x, y, 0}, {x + size, y, 0}, {x + size, y + size, 0}, {x, y + size, 0}};
+}
+
+TEST(PolygonTest, HolesAreLeftOut) {
+  // A grid of 100 holes, every other one wound the other way.
+  std::vector<Outline> holes;
+  for (int i = 0; i < 100; ++i) {
+    holes.push_back(square(i % 10 + 0.1 * (i % 7) + 0.1, i / 10 + 0.3, 0.25));
+    if (i % 2) std::reverse(holes.back().begin(), holes.back().end());
+  }
+  const Polygon sieve(square(0, 0, 10), holes);
+  EXPECT_NEAR(*sieve.area(), 100 - 100 * 0.25 * 0.25, 1e-12);
+  EXPECT_NEAR(isolux::area(*sieve.triangulate(0.2)), *sieve.area(), 1e-9);
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p{10 * random.uniform(), 10 * random.uniform(), 0};
+    const bool in_hole = std::any_of(holes.begin(), holes.end(), [&](const Outline& h) {
+      const Vec3 from_middle = p - (h[0] + h[2]) * 0.5;
+      return std::abs(from_middle.x) < 0.125 && std::abs(from_middle.y) < 0.125;
+    });
+    EXPECT_EQ(hits_of(sieve, {p + Vec3{0, 0, 1}, {0, 0, -1}}).empty(), in_hole)
+        << p.x << ' ' << p.y;
+  }
+}
+
+TEST(PolygonTest, HolesOfConcaveOutlines) {
+  for (const Outline& outline : outlines()) {
+    // A triangle a thousandth as large at the middle of each triangle of the outline.
+    const Polygon whole(outline);
+    const TriangleSoup soup = *whole.triangulate(100);
+    std::vector<Outline> holes;
+    double area = *whole.area();
+    for (const auto& [a, b, c] : soup.triangles) {
+      const Vec3 p = soup.points[a], q = soup.points[b], r = soup.points[c];
+      const Vec3 middle = (p + q + r) / 3;
+      holes.push_back({});
+      for (const Vec3& v : {p, q, r}) holes.back().push_back(middle + (v - middle) * 1e-3);
+      area -= 0.5e-6 * length(cross(q - p, r - p));
+    }
+    EXPECT_NEAR(*Polygon(outline, holes).area(), area, 1e-12);
+  }
+}
+
 TEST(PolygonTest, RefusesWhatIsNoPolygon) {
   const auto message = [](const Outline& corners) -> std::string {
     try {
@@ -131,6 +175,20 @@ TEST(PolygonTest, RefusesWhatIsNoPolygon) {
   EXPECT_THAT(message({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}}), HasSubstr("touch"));
   EXPECT_THAT(message({{0, 0, 0}, {1, 0, 0}, {0, NAN, 0}}), HasSubstr("points[2]"));
   EXPECT_EQ(message({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-7}, {0, 1, 0}}), "");
+  const auto message_of_hole = [](const std::vector<Outline>& holes) -> std::string {
+    try {
+      Polygon polygon(square(0, 0, 4), holes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(message_of_hole({{{1, 1, 0}, {2, 1, 0}}}), HasSubstr("at least 3"));
+  EXPECT_THAT(message_of_hole({square(5, 1, 1)}), HasSubstr("corner 4 lies outside the polygon"));
+  EXPECT_THAT(message_of_hole({square(1, 1, 2), square(1.5, 1.5, 1)}),
+              HasSubstr("corner 8 lies in another hole"));
+  EXPECT_THAT(message_of_hole({square(3, 1, 2)}), HasSubstr("touch"));
+  EXPECT_THAT(message_of_hole({square(1, 1, 1), square(2, 2, 1)}), HasSubstr("touch"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/polygon.h"
+#include "isolux/geometry/reversed.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
 #include "isolux/geometry/triangle_mesh.h"
@@ -120,6 +121,8 @@ void add_basic(std::vector<Specimen>& zoo) {
   add_frustum(zoo, "Frustum", {1, 0, -1}, {2, 2, 1}, 0.7, 1.4);
   add_frustum(zoo, "Cone", {1, 0, -1}, {-2, 2, 0}, 1.2, 0);
   add_frustum(zoo, "FlatCone", {1, 0, 0}, {1, 0, 0.1}, 0, 3);
+  zoo.push_back(
+      {"Bubble", std::make_shared<Reversed>(sphere), outside(sphere_level({1, 2, 3}, 1.5))});
   const double wide = 0.7, thin = 0.02;
   for (const double minor : {wide, thin}) {
     zoo.push_back({minor == thin ? "ThinTorus" : "Torus",
@@ -139,6 +142,9 @@ void add_flat(std::vector<Specimen>& zoo) {
                  {c, c + u, c + v, c + u * 0.5}});
   const std::vector<Vec3> l = {{0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 3, 1}, {0, 3, 1}};
   zoo.push_back({"Polygon", std::make_shared<Polygon>(l), plane_level({0, 0, 1}, {0, 0, 1}), l});
+  const std::vector<std::vector<Vec3>> holes = {{{0.2, 0.2, 1}, {0.8, 0.2, 1}, {0.5, 2, 1}}};
+  zoo.push_back(
+      {"Frame", std::make_shared<Polygon>(l, holes), plane_level({0, 0, 1}, {0, 0, 1}), l});
 }
 
 void add_composed(std::vector<Specimen>& zoo) {

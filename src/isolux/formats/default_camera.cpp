@@ -9,6 +9,7 @@ namespace {
 constexpr double kInset = 0.1;       // of the scene's length and width: from walls to the eye
 constexpr double kEyeHeight = 1.6;   // m
 constexpr double kEyeLevel = 0.6;    // of the scene's height: at most, and where that is no room's
+constexpr double kLowestRoom = 0.5;  // m
 constexpr double kTallestRoom = 20;  // m
 constexpr double kFieldOfView = 60;  // degrees
 constexpr int kFewestWallsAround = 5;  // of six, counting floor and ceiling
@@ -45,6 +46,7 @@ void look_around(const Scene& scene, Stand& stand, const Vec3& middle) {
 /// where none has both.
 std::optional<Vec3> place_inside(const Scene& scene, const Bounds& box, int up) {
   const Vec3 size = box.upper - box.lower;
+  if (size[up] < kLowestRoom) return std::nullopt;
   const double eye_level = kEyeLevel * size[up];
   Vec3 middle = box.center();
   middle[up] =

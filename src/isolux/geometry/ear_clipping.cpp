@@ -81,10 +81,15 @@ void join_last_ring(const Flat& p, std::vector<Ring>& rings, double slack) {
 bool is_ear(const Flat& p, const Ring& ring, std::size_t i, double slack) {
   const std::size_t n = ring.size();
   const std::uint32_t before = ring[(i + n - 1) % n], here = ring[i], after = ring[(i + 1) % n];
-  if (before == after || line_distance(p[before], p[after], p[here]) >= -slack) return false;
+  const Vec3 &a = p[before], &b = p[here], &c = p[after];
+  if (before == after || line_distance(a, c, b) >= -slack) return false;
+  const Vec3 margin = Vec3{1, 1, 1} * slack;
+  const Vec3 lower = min(min(a, b), c) - margin, upper = max(max(a, b), c) + margin;
   for (const std::uint32_t k : ring) {
+    const Vec3& q = p[k];
+    if (q.x < lower.x || q.x > upper.x || q.y < lower.y || q.y > upper.y) continue;
     if (k == before || k == here || k == after) continue;
-    if (in_triangle(p[k], p[before], p[here], p[after], slack)) return false;
+    if (in_triangle(q, a, b, c, slack)) return false;
   }
   return true;
 }

@@ -9,29 +9,28 @@ namespace isolux::mgf {
 std::vector<std::string> notes_of(const Findings& found) {
   constexpr std::size_t kMostUnknown = 20;
   std::vector<std::string> notes;
-  const auto note = [&](std::size_t count, std::string_view noun, std::string_view what) {
+  const auto note = [&](std::string_view before, std::size_t count, std::string_view noun,
+                        std::string_view after) {
     if (count == 0) return;
-    notes.push_back(fmt::format("{} {}{}: {}", count, noun, count == 1 ? "" : "s", what));
+    notes.push_back(fmt::format("{}{} {}{}{}", before, count, noun, count == 1 ? "" : "s", after));
   };
-  note(found.specular, "material",
-       "specular reflectance (rs) is absorbed; the diffuse reflectance (rd) alone is kept");
-  note(found.transmitting, "material",
-       "transmittance (td, ts) is absorbed; the surfaces are opaque");
-  note(found.refracting, "material", "the index of refraction (ir) is ignored");
-  note(found.clamped, "material", "diffuse reflectance (rd) of 1 or more is reduced to 0.999");
-  note(
-      found.paled, "material",
-      "the colour is more saturated, or brighter, than Rec. 709 can tell; it is mixed with grey of "
-      "the same luminance");
-  note(found.two_sided_lights, "light",
-       "emits (ed) from both sides (sides 2); light leaves the front alone, the back is black");
-  note(found.dark_lights, "light", "a torus can't emit (ed); it is dark");
-  note(found.empty, "surface", "has no area; it is left out");
-  note(found.folded, "face", "its corners don't lie in a plane; it is cut into flat triangles");
-  note(found.smoothed, "face", "has vertex normals (n); it stays flat");
-  note(found.dark_spectra, "color",
-       "the spectrum (cspec) has no luminance; it is taken as neutral");
-  note(found.luminaires, "luminaire", "ies files are not read; its light is missing");
+  note("specular reflectance (rs) of ", found.specular, "material",
+       ": absorbed, only the diffuse reflectance (rd) is kept");
+  note("transmittance (td, ts) of ", found.transmitting, "material",
+       ": absorbed, nothing shines through");
+  note("index of refraction (ir) of ", found.refracting, "material", ": ignored");
+  note("diffuse reflectance (rd) of 1 or more, of ", found.clamped, "material",
+       ": reduced to 0.999");
+  note("colour beyond the range of Rec. 709, of ", found.paled, "material",
+       ": mixed with grey of the same luminance");
+  note("emission (ed) from both sides of ", found.two_sided_lights, "light",
+       ": from the front alone, the back is black");
+  note("emission (ed) of a torus, ", found.dark_lights, "light", ": left out, it is dark");
+  note("", found.empty, "surface", " without area: left out");
+  note("", found.folded, "face", " with corners off the plane: cut into flat triangles");
+  note("", found.smoothed, "face", " with vertex normals (n): kept flat");
+  note("spectrum (cspec) without luminance, ", found.dark_spectra, "colour", ": taken as neutral");
+  note("", found.luminaires, "luminaire", " in IES files (ies): not read, the light is missing");
   std::size_t named = 0;
   for (const std::string& keyword : found.unknown) {
     if (named++ == kMostUnknown) {

@@ -1,0 +1,28 @@
+#include "isolux/formats/scene_file.h"
+
+#include <gmock/gmock.h>
+
+#include "formats/temporary_folder.h"
+#include "isolux/core/error.h"
+
+namespace isolux {
+namespace {
+
+const std::string kBall = "v a =\nsph a 1\n";
+
+TEST(SceneFile, TheFormatIsThatOfTheExtensionOrAsAskedFor) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(load_scene_file(folder.write("ball.mgf", kBall)).scene.name, "ball");
+  EXPECT_EQ(load_scene_file(folder.write("BALL.MGF", kBall)).scene.name, "BALL");
+  EXPECT_EQ(load_scene_file(folder.write("ball.txt", kBall), "mgf").scene.name, "ball");
+  EXPECT_THROW(load_scene_file(folder.path() / "ball.mgf", "isolux"), InputError);
+  EXPECT_THROW(load_scene_file(folder.path() / "ball.mgf", "fgm"), InputError);
+  EXPECT_THROW(load_scene_file(folder.path() / "missing.mgf"), InputError);
+}
+
+TEST(SceneFile, FormatsHaveNames) {
+  EXPECT_THAT(format_names(), testing::IsSupersetOf({"isolux", "mgf"}));
+}
+
+}  // namespace
+}  // namespace isolux
