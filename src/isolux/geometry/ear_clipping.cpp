@@ -1,5 +1,7 @@
 #include "isolux/geometry/ear_clipping.h"
 
+#include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "isolux/core/error.h"
@@ -42,13 +44,13 @@ void join_last_ring(const Flat& p, std::vector<Ring>& rings, double slack) {
   struct Bridge {
     double length_squared;
     std::size_t ring, place, place_in_last;
-    bool operator<(const Bridge& b) const {
-      return std::tie(length_squared, ring, place, place_in_last) <
+    bool operator>(const Bridge& b) const {
+      return std::tie(length_squared, ring, place, place_in_last) >
              std::tie(b.length_squared, b.ring, b.place, b.place_in_last);
     }
   };
   const Ring last = rings.back();
-  std::vector<Bridge> bridges;
+  std::vector<Bridge> bridges;  // a heap, the shortest on top: mostly one of the first will do
   for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
       for (std::size_t k = 0; k < last.size(); ++k) {
@@ -56,8 +58,11 @@ void join_last_ring(const Flat& p, std::vector<Ring>& rings, double slack) {
       }
     }
   }
-  std::sort(bridges.begin(), bridges.end());
-  for (const Bridge& b : bridges) {
+  std::make_heap(bridges.begin(), bridges.end(), std::greater<>());
+  while (!bridges.empty()) {
+    std::pop_heap(bridges.begin(), bridges.end(), std::greater<>());
+    const Bridge b = bridges.back();
+    bridges.pop_back();
     Ring& ring = rings[b.ring];
     const std::uint32_t here = ring[b.place], there = last[b.place_in_last];
     if (!opens_towards(p, ring, b.place, p[there]) ||

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostObjects = 1'000'000;
 constexpr std::size_t kMostMaps = 2'000'000;  // of all transforms together
-constexpr double kMostCornerPairs = 1e9;      // of all faces together
+constexpr double kMostCornerPairs = 1e8;      // of all faces together
 constexpr std::size_t kDeepestObjects = 32;
 constexpr std::size_t kLongestName = 60;
 constexpr double kMostReflectance = 0.999;
