@@ -63,5 +63,13 @@ TEST(Affine, SingularAndNonFiniteMapsHaveNoInverse) {
   EXPECT_TRUE(Affine::scale({1e-6, 1e-6, 1e-6}).inverse()) << "small is not singular";
 }
 
+TEST(Affine, SimilarityIsTheFactorOfMapsThatKeepAngles) {
+  const Affine turn = Affine::rotate({1, 2, 3}, 0.7);
+  EXPECT_NEAR((turn * Affine::scale({3, 3, 3})).similarity().value(), 3, 1e-12);
+  EXPECT_NEAR((turn * Affine::scale({-2, 2, 2})).similarity().value(), 2, 1e-12);
+  EXPECT_FALSE((turn * Affine::scale({1, 1, 1.001})).similarity());
+  EXPECT_FALSE(Affine::scale({0, 0, 0}).similarity());
+}
+
 }  // namespace
 }  // namespace isolux

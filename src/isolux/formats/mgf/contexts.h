@@ -50,7 +50,7 @@ class Contexts {
 
   T& current() { return *current_; }
   const std::string& current_name() const { return current_name_; }
-  /// The context that word i names.
+  /// The context that word i names, which must be defined.
   const T& named(const Statement& s, std::size_t i) const;
 
  private:
@@ -62,20 +62,24 @@ class Contexts {
 
 template <typename T>
 void Contexts<T>::select(const Statement& s) {
-  s.expect_arguments(0, 3, fmt::format("{} [name [= [template]]]", s.word(0)));
+  s.expect_arguments(0, 3, "at most a name, = and a template");
   if (s.size() == 1) {
     unnamed_ = {};
     current_ = &unnamed_;
     current_name_.clear();
     return;
   }
-  if (s.size() > 2) {
-    if (s.word(2) != "=") s.fail(2, fmt::format("expected '=', not {}", in_quotes(s.word(2))));
-    T values = s.size() == 4 ? named(s, 3) : T{};
-    named_[std::string(s.word(1))] = values;
+  const std::string name(s.word(1));
+  if (s.size() == 2) {
+    named(s, 1);
+  } else if (s.word(2) != "=") {
+    s.fail(2, fmt::format("expected '=', not {}", in_quotes(s.word(2))));
+  } else {
+    const T values = s.size() == 4 ? named(s, 3) : T{};
+    named_[name] = values;
   }
-  current_name_ = s.word(1);
-  current_ = const_cast<T*>(&named(s, 1));
+  current_name_ = name;
+  current_ = &named_[name];
 }
 
 template <typename T>

@@ -8,6 +8,7 @@
 #include "isolux/formats/colorimetry.h"
 #include "isolux/formats/default_camera.h"
 #include "isolux/formats/mgf/transform.h"
+#include "isolux/geometry/require.h"
 
 namespace isolux::mgf {
 namespace {
@@ -84,7 +85,12 @@ SceneFile Reader::finish() {
 
 void Reader::read_point(const Statement& s) {
   s.expect_arguments(3, 3, "p x y z");
-  vertices_.current().point = {s.number(1), s.number(2), s.number(3)};
+  const Vec3 point{s.number(1), s.number(2), s.number(3)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(point[axis]) <= kLongestLength) continue;
+    s.fail(axis + 1, fmt::format("must lie between -{0:g} and {0:g}", kLongestLength));
+  }
+  vertices_.current().point = point;
 }
 
 void Reader::read_normal(const Statement& s) {
@@ -102,7 +108,7 @@ void Reader::read_chromaticity(const Statement& s) {
 }
 
 void Reader::read_spectrum(const Statement& s) {
-  s.expect_arguments(4, std::size_t(-2), "cspec l_min l_max v1 v2 ...");
+  s.expect_arguments(4, Statement::kAnyNumber, "cspec l_min l_max v1 v2 ...");
   constexpr double kLongest = 1e5;  // nm
   const double first = s.number_of_at_least_0(1), last = s.number(2);
   if (!(first < last && last <= kLongest)) {
@@ -131,7 +137,7 @@ void Reader::read_black_body(const Statement& s) {
 }
 
 void Reader::read_mix(const Statement& s) {
-  s.expect_arguments(2, std::size_t(-2), "cmix w1 c1 w2 c2 ...");
+  s.expect_arguments(2, Statement::kAnyNumber, "cmix w1 c1 w2 c2 ...");
   if (s.size() % 2 == 0) s.fail(s.size() - 1, "this weight lacks a color");
   Vec3 sum;
   for (std::size_t i = 1; i < s.size(); i += 2) {
@@ -150,7 +156,7 @@ void Reader::read_fraction(const Statement& s) {
   const std::string_view what = s.word(0);
   const bool rough = what == "rs" || what == "ts";
   s.expect_arguments(rough ? 2 : 1, rough ? 2 : 1,
-                     fmt::format("{} value{}", what, rough ? " roughness" : ""));
+                     rough ? "a fraction and a roughness" : "a single value");
   const double value = s.number_of_at_least_0(1);
   if (rough) s.number_of_at_least_0(2);
   Material& material = materials_.current();
@@ -213,7 +219,7 @@ void Reader::read_transform_entity(const Statement& s) {
 }
 
 void Reader::read_include(const Statement& s) {
-  s.expect_arguments(1, std::size_t(-2), "i file [transform]");
+  s.expect_arguments(1, Statement::kAnyNumber, "i file [transform]");
   SourceText source;
   try {
     source = includes_.open(s.word(1));
@@ -227,7 +233,7 @@ void Reader::read_include(const Statement& s) {
 }
 
 void Reader::skip_luminaire(const Statement& s) {
-  s.expect_arguments(1, std::size_t(-2), "ies file [transform]");
+  s.expect_arguments(1, Statement::kAnyNumber, "ies file [transform]");
   ++findings_.luminaires;
 }
 

@@ -30,6 +30,7 @@ class Statement {
   }
   [[noreturn]] void fail(std::size_t i, const std::string& message) const;
 
+  static constexpr std::size_t kAnyNumber = std::size_t{1} << 60;
   /// Demands `least` to `most` words after the keyword; `usage` shows them in the message.
   void expect_arguments(std::size_t least, std::size_t most, std::string_view usage) const;
 

@@ -149,7 +149,10 @@ Region region_of(const Statement& s, const std::vector<Vertex>& corners) {
 Region placed(const Region& region, const Affine& map) {
   Region result = region;
   const auto place = [&](Contour& contour) {
-    for (Vec3& p : contour) p = map.point(p);
+    for (Vec3& p : contour) {
+      p = map.point(p);
+      require_point(p, "vertex");
+    }
     if (map.determinant() < 0) std::reverse(contour.begin(), contour.end());
   };
   place(result.outline);
@@ -172,13 +175,13 @@ Surface face_of(const Region& region, const std::vector<Vertex>& corners) {
 }
 
 Surface read_face(const Statement& s, const Vertices& vertices) {
-  s.expect_arguments(3, std::size_t(-2), "f v1 v2 v3 ...");
+  s.expect_arguments(3, Statement::kAnyNumber, "f v1 v2 v3 ...");
   const std::vector<Vertex> corners = read_vertices(s, 1, s.size() - 1, vertices);
   return face_of(region_of(s, corners), corners);
 }
 
 Surface read_face_with_holes(const Statement& s, const Vertices& vertices) {
-  s.expect_arguments(3, std::size_t(-2), "fh v1 v2 v3 ... - h1 h2 h3 ...");
+  s.expect_arguments(3, Statement::kAnyNumber, "fh v1 v2 v3 ... - h1 h2 h3 ...");
   std::vector<Vertex> corners;
   Region region;
   for (std::size_t i = 1, end = 1; i < s.size(); i = end + 1) {
@@ -221,7 +224,7 @@ TriangleSoup prism_triangles(const Region& end, const Vec3& offset) {
 }
 
 Surface read_prism(const Statement& s, const Vertices& vertices) {
-  s.expect_arguments(4, std::size_t(-2), "prism v1 v2 v3 ... length");
+  s.expect_arguments(4, Statement::kAnyNumber, "prism v1 v2 v3 ... length");
   const std::vector<Vertex> corners = read_vertices(s, 1, s.size() - 2, vertices);
   const double length = s.number(s.size() - 1);
   Region end = region_of(s, corners);
