@@ -10,7 +10,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 Rgb reflectance(const std::string& material) {
-  const SceneFile file = mgf(kVertices + material + "\nsph o 1\n");
+  const SceneFile file = read_text(kVertices + material + "\nsph o 1\n");
   return file.scene.material_of(0).reflectance;
 }
 
@@ -21,7 +21,7 @@ void expect_near(const Rgb& a, const Rgb& b, double tolerance) {
 }
 
 TEST(MgfContext, UnnamedContextsHaveTheirDefaults) {
-  const SceneFile file = mgf(kVertices + "f o x y\n");
+  const SceneFile file = read_text(kVertices + "f o x y\n");
   const Object& face = file.scene.objects.at(0);
   EXPECT_EQ(file.scene.material_of(0).reflectance, Rgb{});
   EXPECT_EQ(file.scene.material_of(0).name, "unnamed");
@@ -46,7 +46,8 @@ TEST(MgfContext, TemplatesAreCopied) {
 }
 
 TEST(MgfContext, ChangesDoNotReachEarlierUses) {
-  const SceneFile file = mgf(kVertices + "m a =\nrd 0.3\nsph x 1\nrd 0.6\nsph y 1\nv x\np 9 9 9\n");
+  const SceneFile file =
+      read_text(kVertices + "m a =\nrd 0.3\nsph x 1\nrd 0.6\nsph y 1\nv x\np 9 9 9\n");
   expect_near(file.scene.material_of(0).reflectance, gray(0.3), 1e-12);
   expect_near(file.scene.material_of(1).reflectance, gray(0.6), 1e-12);
   EXPECT_EQ(file.scene.objects[0].shape->bounds().upper.x, 2);
@@ -56,9 +57,9 @@ TEST(MgfContext, ChangesDoNotReachEarlierUses) {
 
 TEST(MgfContext, MaterialsAreListedOnce) {
   const SceneFile file =
-      mgf(kVertices +
-          "m a =\nrd 0.3\nm b =\nrd 0.3\nm unused =\nm a\nsph x 1\nm b\nsph y 1\nm a\n"
-          "sph z 1\nm a =\nrd 0.3\nsph o 1\n");
+      read_text(kVertices +
+                "m a =\nrd 0.3\nm b =\nrd 0.3\nm unused =\nm a\nsph x 1\nm b\nsph y 1\nm a\n"
+                "sph z 1\nm a =\nrd 0.3\nsph o 1\n");
   ASSERT_EQ(file.scene.materials.size(), 2u);
   EXPECT_EQ(file.scene.objects[2].material, 0u);
   EXPECT_EQ(file.scene.objects[3].material, 0u);
@@ -71,18 +72,19 @@ TEST(MgfContext, SidesOfOpenSurfaces) {
 }
 
 TEST(MgfContext, ObjectsNestInNames) {
-  const SceneFile file = mgf(kVertices +
-                             "sph x 1\no room\nsph x 1\no lamp\nsph x 1\nsph x 1\no\nsph y 1\no\n"
-                             "cyl o 1 z\n");
+  const SceneFile file =
+      read_text(kVertices +
+                "sph x 1\no room\nsph x 1\no lamp\nsph x 1\nsph x 1\no\nsph y 1\no\n"
+                "cyl o 1 z\n");
   std::vector<std::string> names;
   for (const Object& o : file.scene.objects) names.push_back(o.name);
   EXPECT_THAT(names, ElementsAre("sph", "room", "room/lamp", "room/lamp 2", "room 2", "cyl"));
 }
 
 TEST(MgfContext, OnlyDiffuseReflectanceIsKept) {
-  const SceneFile file = mgf(kVertices +
-                             "m glossy =\nrd 0.3\nrs 0.4 0.05\nir 1.5 0\nm glass =\ntd 0.2\n"
-                             "ts 0.5 0\nm\nm glossy\nf o x y\nm glass\nf o x xy\nf o xy y\n");
+  const SceneFile file = read_text(kVertices +
+                                   "m glossy =\nrd 0.3\nrs 0.4 0.05\nir 1.5 0\nm glass =\ntd 0.2\n"
+                                   "ts 0.5 0\nm\nm glossy\nf o x y\nm glass\nf o x xy\nf o xy y\n");
   expect_near(file.scene.materials.at(0).reflectance, gray(0.3), 1e-12);
   expect_near(file.scene.materials.at(1).reflectance, gray(0), 0);
   EXPECT_THAT(file.notes, ElementsAre(HasSubstr("(rs) of 1 material: absorbed"),
@@ -91,7 +93,7 @@ TEST(MgfContext, OnlyDiffuseReflectanceIsKept) {
 }
 
 TEST(MgfContext, AReflectanceOf1IsClamped) {
-  const SceneFile file = mgf(kVertices + "rd 1\nf o x y\n");
+  const SceneFile file = read_text(kVertices + "rd 1\nf o x y\n");
   expect_near(file.scene.material_of(0).reflectance, gray(0.999), 1e-12);
   EXPECT_THAT(file.notes, ElementsAre(HasSubstr("reduced to 0.999")));
 }
@@ -107,14 +109,14 @@ TEST(MgfContext, EmittanceIsPhotometricWhateverItsColour) {
 }
 
 TEST(MgfContext, TwoSidedLightsShineFromTheirFrontAlone) {
-  const SceneFile file = mgf(kVertices + "ed 5\nf o x y\nsph z 0.1\n");
+  const SceneFile file = read_text(kVertices + "ed 5\nf o x y\nsph z 0.1\n");
   EXPECT_EQ(file.scene.objects.at(0).sides, Sides::front);
   EXPECT_THAT(file.notes,
               ElementsAre(HasSubstr("from both sides of 1 light: from the front alone")));
 }
 
 TEST(MgfContext, ATorusIsDark) {
-  const SceneFile file = mgf(kVertices + "ed 5\ntorus z 1 2\n");
+  const SceneFile file = read_text(kVertices + "ed 5\ntorus z 1 2\n");
   EXPECT_FALSE(file.scene.objects.at(0).emits());
   EXPECT_THAT(file.notes, ElementsAre(HasSubstr("(ed) of a torus, 1 light")));
 }
@@ -134,7 +136,7 @@ TEST(MgfContext, ColoursOfMaterials) {
 }
 
 TEST(MgfContext, ColoursOutOfRangeArePaled) {
-  const SceneFile file = mgf(kVertices + "cxy 0.73 0.26\nrd 0.5\nf o x y\n");
+  const SceneFile file = read_text(kVertices + "cxy 0.73 0.26\nrd 0.5\nf o x y\n");
   const Rgb red = file.scene.material_of(0).reflectance;
   EXPECT_NEAR(luminance(red), 0.5, 1e-12);
   EXPECT_GT(red.r, 2 * red.g);
@@ -144,19 +146,21 @@ TEST(MgfContext, ColoursOutOfRangeArePaled) {
 }
 
 TEST(MgfContext, UnknownEntitiesAreNamedOnce) {
-  const SceneFile file = mgf(kVertices + "mesh a b c\nmesh d\nlight 5\nf o x y\nies a.ies -s 2\n");
+  const SceneFile file =
+      read_text(kVertices + "mesh a b c\nmesh d\nlight 5\nf o x y\nies a.ies -s 2\n");
   EXPECT_THAT(file.notes,
               ElementsAre("1 luminaire in IES files (ies): not read, the light is missing",
                           "unknown entity 'light': ignored", "unknown entity 'mesh': ignored"));
   std::string many = kVertices + "f o x y\n";
   for (int i = 0; i < 1000; ++i) many += "entity" + std::to_string(i) + "\n";
-  EXPECT_EQ(mgf(many).notes.size(), 21u);
+  EXPECT_EQ(read_text(many).notes.size(), 21u);
 }
 
 TEST(MgfContext, LinesAreContinuedAndEndInAnyWay) {
   const std::string text =
-      "# a comment \\\nf that goes on\r\n\r#\n  v a = \r p 1 \\\r\n 2 \\\n\t3\nsph a \\\n0.5";
-  const SceneFile file = mgf(text);
+      "\xef\xbb\xbf# a comment \\\nf that goes on\r\n\r#\n  v a = \r p 1 \\\r\n 2 \\\n\t3\nsph a "
+      "\\\n0.5";
+  const SceneFile file = read_text(text);
   EXPECT_EQ(file.scene.objects.at(0).shape->bounds().upper, (Vec3{1.5, 2.5, 3.5}));
 }
 

@@ -77,11 +77,10 @@ TEST(MgfError, ASceneWithoutSurfaces) {
 }
 
 TEST(MgfError, HugeCountsAreRefused) {
-  const std::string array = "xf -a 1000 -t 1 0 0 -a 1000 -t 0 1 0\n";
-  EXPECT_THAT(mgf_refusal(kVertices + array + "sph o 1\nsph o 1\nxf\n"),
+  EXPECT_THAT(mgf_refusal(kVertices + "xf -a 1001 -t 1 0 0 -a 1000 -t 0 1 0\nsph o 1\nxf\n"),
               EndsWith("the scene has more than 1000000 surfaces"));
-  EXPECT_THAT(mgf_refusal(kVertices + array + "xf\n" + array + "xf\n" + array + "xf\n"),
-              HasSubstr("too many instances"));
+  const std::string array = "xf -a 1000 -t 1 0 0 -a 1000 -t 0 1 0\nxf\n";
+  EXPECT_THAT(mgf_refusal(kVertices + array + array + array), HasSubstr("too many instances"));
   std::string nest = kVertices;
   for (int i = 0; i < 100'000; ++i) nest += "o deep\n";
   EXPECT_THAT(mgf_refusal(nest), StartsWith("test.mgf:43:1: objects (o) nest more than 32 deep"));

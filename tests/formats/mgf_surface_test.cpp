@@ -71,7 +71,7 @@ TEST(MgfSurface, ASeamMayRunAlongPartOfASide) {
 }
 
 TEST(MgfSurface, FaceOffItsPlaneKeepsItsCorners) {
-  const SceneFile file = mgf(kVertices + "v up =\n p 1 1 0.1\nf o x up y\n");
+  const SceneFile file = read_text(kVertices + "v up =\n p 1 1 0.1\nf o x up y\n");
   const Shape& shape = *file.scene.objects.at(0).shape;
   EXPECT_EQ(shape.part_count(), 2u);
   EXPECT_DOUBLE_EQ(shape.bounds().upper.z, 0.1);
@@ -162,15 +162,17 @@ TEST(MgfSurface, PrismOfAConcaveEndWithAHole) {
 }
 
 TEST(MgfSurface, WhatHasNoAreaIsLeftOutAndCounted) {
-  const SceneFile file = mgf(kVertices +
-                             "f o x x\nf o x o\nsph o 0\ncyl o 1 o\ncyl o 0 z\ncone o 0 z 0\n"
-                             "ring z 1 1\ntorus z 1 1\nprism o x xy y 0\nprism o x x 1\nf o x y\n");
+  const SceneFile file =
+      read_text(kVertices +
+                "f o x x\nf o x o\nsph o 0\ncyl o 1 o\ncyl o 0 z\ncone o 0 z 0\n"
+                "ring z 1 1\ntorus z 1 1\nprism o x xy y 0\nprism o x x 1\nf o x y\n");
   EXPECT_EQ(file.scene.objects.size(), 1u);
   EXPECT_THAT(file.notes, ElementsAre("10 surfaces without area: left out"));
 }
 
 TEST(MgfSurface, VertexNormalsDoNotBendAFace) {
-  const SceneFile file = mgf(kVertices + "v x\n n 1 0 0\nv xy\n n 0 0 -3\nf o x xy\nf o xy y\n");
+  const SceneFile file =
+      read_text(kVertices + "v x\n n 1 0 0\nv xy\n n 0 0 -3\nf o x xy\nf o xy y\n");
   EXPECT_THAT(file.notes, ElementsAre("1 face with vertex normals (n): kept flat"));
   const Shape& shape = *file.scene.objects.at(0).shape;
   expect_near(hits_along(shape, {0.9, 0.1, 1}, {0, 0, -1}).at(0).normal, {0, 0, 1});

@@ -9,11 +9,11 @@
 
 namespace isolux {
 
-inline SceneFile mgf(const std::string& text) { return parse_mgf(text, "test.mgf"); }
+inline SceneFile read_text(const std::string& text) { return parse_mgf(text, "test.mgf"); }
 
 /// The only object of a text.
 inline Object only_object(const std::string& text) {
-  const SceneFile file = mgf(text);
+  const SceneFile file = read_text(text);
   EXPECT_EQ(file.scene.objects.size(), 1u);
   return file.scene.objects.at(0);
 }
@@ -21,15 +21,15 @@ inline Object only_object(const std::string& text) {
 /// What reading the text is refused with; empty where it is not.
 inline std::string mgf_refusal(const std::string& text) {
   try {
-    mgf(text);
+    read_text(text);
   } catch (const InputError& error) {
     return error.what();
   }
   return {};
 }
 
-/// Vertices o (at the origin), x, y, z (at 1 on the axes; z has its normal along its own) and xy, at
-/// (1, 1, 0); ten lines.
+/// Vertices o (at the origin), x, y, z (at 1 on the axes; z has its normal along its own) and xy,
+/// at (1, 1, 0); ten lines.
 inline const std::string kVertices =
     "v o =\n"
     "v x =\n p 1 0 0\n"

@@ -16,7 +16,7 @@ Vec3 moved(const std::string& transform) {
 
 std::vector<Vec3> places(const std::string& text) {
   std::vector<Vec3> list;
-  for (const Object& o : mgf(kVertices + text).scene.objects) {
+  for (const Object& o : read_text(kVertices + text).scene.objects) {
     list.push_back(o.shape->bounds().center());
   }
   return list;
@@ -69,7 +69,7 @@ TEST(MgfTransform, ContextsSetInsideOneAreNotMoved) {
 TEST(MgfTransform, MirrorsKeepNormals) {
   // A face that looks up still does so, beside its mirror image; one that looks along x looks back.
   for (const std::string face : {"f o x xy y", "f o x y", "ring z 0 1"}) {
-    for (const Object& o : mgf(kVertices + "xf -a 2 -mx\n" + face + "\nxf\n").scene.objects) {
+    for (const Object& o : read_text(kVertices + "xf -a 2 -mx\n" + face + "\nxf\n").scene.objects) {
       const Vec3 c = o.shape->bounds().center();
       const Hits hits = hits_along(*o.shape, {c.x * 0.5, 0.3, 5}, {0, 0, -1});
       ASSERT_EQ(hits.size(), 1u) << face;
@@ -105,12 +105,15 @@ TEST(MgfTransform, UnevenScalesMakeEllipsoidsAndStretchFaces) {
   expect_near(egg.shape->bounds().upper, {1, 1, 4});
   EXPECT_TRUE(egg.shape->contains({0, 0, 3.9}));
   EXPECT_FALSE(egg.shape->contains({0.9, 0, 3}));
+  const SceneFile eggs = read_text(kVertices + "xf -sz 3 -a 3 -t 5 0 0\nsph o 1\nxf\n");
+  expect_near(eggs.scene.objects.at(2).shape->bounds().lower, {9, -1, -3});
   const Object face = only_object(kVertices + "xf -sx 3\nf o x xy y\nxf\n");
   EXPECT_DOUBLE_EQ(face.shape->area().value(), 3);
 }
 
 TEST(MgfTransform, AHundredThousandObjects) {
-  const SceneFile file = mgf(kVertices + "xf -a 1000 -t 3 0 0 -a 100 -t 0 3 0\nsph o 1\nxf\n");
+  const SceneFile file =
+      read_text(kVertices + "xf -a 1000 -t 3 0 0 -a 100 -t 0 3 0\nsph o 1\nxf\n");
   EXPECT_EQ(file.scene.objects.size(), 100'000u);
   expect_near(file.scene.bounds().upper, {2998, 298, 1});
 }

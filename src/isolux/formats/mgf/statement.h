@@ -43,10 +43,12 @@ class Statement {
   std::vector<Word> words_;
 };
 
-/// Cuts a text into statements; lines end in LF, CR or both. Blank lines and comments are left out.
+/// Cuts a text into statements; lines end in LF, CR or both. Blank lines and comments are left out,
+/// and so is the mark that some editors put before UTF-8.
 class StatementReader {
  public:
-  explicit StatementReader(const SourceText& source) : source_(source) {}
+  explicit StatementReader(const SourceText& source)
+      : source_(source), at_(source.text.starts_with("\xef\xbb\xbf") ? 3 : 0), line_start_(at_) {}
 
   std::optional<Statement> next();
 
@@ -58,8 +60,8 @@ class StatementReader {
   void pass_blanks();
 
   const SourceText& source_;
-  std::size_t at_ = 0;
-  std::size_t line_start_ = 0;
+  std::size_t at_;
+  std::size_t line_start_;
   int line_ = 1;
 };
 

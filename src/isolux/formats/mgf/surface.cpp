@@ -25,13 +25,13 @@ bool is_short(double length) { return !(std::abs(length) > 2 * kShortestLength);
 ShapePtr turned_over(ShapePtr shape) { return std::make_shared<Reversed>(std::move(shape)); }
 
 /// A surface that `make` builds from a map that keeps angles and its factor, and that other maps
-/// show as an instance.
+/// show as instances of one shape.
 template <typename Make>
 Surface round_surface(const Make& make) {
   Surface surface;
-  surface.shape = [make](const Affine& map) -> ShapePtr {
+  surface.shape = [make, original = ShapePtr{}](const Affine& map) mutable -> ShapePtr {
     if (const auto factor = map.similarity()) return make(map, *factor);
-    const ShapePtr original = make(Affine{}, 1);
+    if (!original) original = make(Affine{}, 1);
     return original ? std::make_shared<Instance>(original, map) : nullptr;
   };
   return surface;
