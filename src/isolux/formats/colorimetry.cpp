@@ -8,7 +8,7 @@ namespace {
 constexpr int kFirst = 380, kStep = 5, kLast = 780;  // nm
 
 /// The colour-matching functions of the CIE 1931 standard colorimetric observer, (x̄, ȳ, z̄) from
-/// 380 to 780 nm in steps of 5 nm (ISO/CIE 11664-1, CIE 15:2004 table T.4).
+/// 380 to 780 nm in steps of 5 nm (ISO/CIE 11664-1, as tabulated in CIE 15:2004).
 constexpr std::array<Vec3, (kLast - kFirst) / kStep + 1> kObserver = {{
     {0.001368, 0.000039, 0.00645},
     {0.002236, 0.000064, 0.01055},
@@ -143,7 +143,8 @@ Vec3 xyz_of_black_body(double temperature) {
 
 Rgb rec709(const Vec3& xyz) {
   // The linear Bradford adaptation (ICC.1:2022, annex E) of equal-energy white to D65, then XYZ to
-  // the primaries of ITU-R BT.709. It keeps luminance but roughly: that is mended afterwards.
+  // the primaries of ITU-R BT.709. It keeps luminance only roughly, which is mended
+  // afterwards.
   constexpr std::array<Vec3, 3> kRows = {Vec3{3.1466577, -1.6664638, -0.4801939},
                                          Vec3{-0.9955216, 1.9557567, 0.0397649},
                                          Vec3{0.0635948, -0.2145632, 1.1509684}};
