@@ -82,6 +82,8 @@ TEST(Source, FaultsNameTheirPlace) {
   EXPECT_THAT(fault("point: {position: [0, 0, 2], intensity: 1e16}"), HasSubstr("more than 1e15"));
   EXPECT_THAT(fault("spot: {position: [0, 0, 2], look_at: [0, 0, 2], angles: [1, 2], flux: 1}"),
               HasSubstr("must differ from 'position'"));
+  EXPECT_THAT(fault("spot: {position: [0, 0, 2], angles: [1, 2], flux: 1}"),
+              HasSubstr("one of 'direction' and 'look_at'"));
   for (const char* angles : {"[30, 20]", "[0, 0]", "[-1, 20]", "[20, 181]"}) {
     EXPECT_THAT(fault("spot: {position: [0, 0, 2], look_at: [0, 0, 0], flux: 1, angles: " +
                       std::string(angles) + "}"),

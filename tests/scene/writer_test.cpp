@@ -245,5 +245,29 @@ TEST(Writer, SidesAreWrittenWhereTheyAreNotTheDefault) {
   EXPECT_EQ(read_back(scene).objects[0].sides, Sides::both);
 }
 
+TEST(Writer, LightsWithoutASurfaceKeepEveryBit) {
+  const Scene scene = read_scene(
+      scene_text("    shape: {sphere: {center: [0, 0, 0], radius: 1}}\n") +
+          "lights:\n"
+          "  - {name: bulb, point: {position: [0.1, 2, 3], flux: 806, color: [1, 0.9, 0.7]}}\n"
+          "  - spot: {position: [0, 0, 3], look_at: [0.3, 0.1, 0], angles: [17.3, 30], flux: 500}\n"
+          "  - directional: {direction: [1, 2, -3], illuminance: 80000}\n",
+      "test");
+  const std::string text = write_scene(scene);
+  const Scene back = read_scene(text, "written");
+  EXPECT_EQ(write_scene(back), text);
+  ASSERT_EQ(back.sources.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Source &a = scene.sources[i], &b = back.sources[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.intensity, b.intensity);
+    EXPECT_EQ(a.full_angle, b.full_angle);
+    EXPECT_EQ(a.dark_angle, b.dark_angle);
+  }
+}
+
 }  // namespace
 }  // namespace isolux

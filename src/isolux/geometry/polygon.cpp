@@ -165,6 +165,10 @@ std::optional<TriangleSoup> Polygon::triangulate(double max_edge) const {
   return soup;
 }
 
-ShapeDescription Polygon::describe() const { return {"polygon", {{"points", corners_}}, {}, {}}; }
+ShapeDescription Polygon::describe() const {
+  ShapeDescription polygon{"polygon", {{"points", outline_}}, {}, {}};
+  if (!holes_.empty()) polygon.fields.push_back({"holes", holes_});
+  return polygon;
+}
 
 }  // namespace isolux

@@ -34,8 +34,9 @@ class Polygon final : public Shape {
   Vec3 center_;
   Frame frame_{Vec3{0, 0, 1}};
   Bounds bounds_;
-  double slack_ = 0;           ///< m, what counts as zero distance
-  std::vector<Vec3> corners_;  ///< as given
+  double slack_ = 0;                      ///< m, what counts as zero distance
+  std::vector<Vec3> outline_;             ///< as given
+  std::vector<std::vector<Vec3>> holes_;  ///< as given
   std::vector<Vec3> flat_;
   TriangleSoup soup_;
 };

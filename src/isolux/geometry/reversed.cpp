@@ -1,6 +1,7 @@
 #include "isolux/geometry/reversed.h"
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
 
 namespace isolux {
@@ -45,6 +46,12 @@ void Reversed::intersect_part(std::size_t part, const Ray& ray, Hits& hits) cons
 
 bool Reversed::part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const {
   return shape_->part_occludes(part, ray, t_min, t_max);
+}
+
+ShapeDescription Reversed::describe() const {
+  ShapeDescription reversed{"reversed", {}, {}, {}};
+  reversed.operands.push_back(shape_->describe());
+  return reversed;
 }
 
 }  // namespace isolux

@@ -29,6 +29,7 @@ class Reversed final : public Shape {
   Bounds part_bounds(std::size_t part) const override { return shape_->part_bounds(part); }
   void intersect_part(std::size_t part, const Ray& ray, Hits& hits) const override;
   bool part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const override;
+  ShapeDescription describe() const override;
 
  private:
   std::shared_ptr<const Shape> shape_;

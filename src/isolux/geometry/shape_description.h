@@ -15,7 +15,9 @@ namespace isolux {
 /// (docs/scene-format.md), in metres: what writers of scenes know of it.
 struct ShapeDescription {
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-  using Value = std::variant<bool, double, Vec3, std::vector<double>, std::vector<Vec3>, Triangles>;
+  using Outlines = std::vector<std::vector<Vec3>>;
+  using Value =
+      std::variant<bool, double, Vec3, std::vector<double>, std::vector<Vec3>, Triangles, Outlines>;
   struct Field {
     std::string_view key;
     Value value;
@@ -23,7 +25,7 @@ struct ShapeDescription {
 
   std::string_view kind;  ///< "sphere", "union", ...
   std::vector<Field> fields;
-  std::vector<ShapeDescription> operands;  ///< of union, intersection, difference, complement
+  std::vector<ShapeDescription> operands;  ///< of union, difference, complement, reversed ...
   std::optional<Affine> transform;         ///< applied to all of the above
 
   /// The value under that key; null where there is none or it is of another type.

@@ -71,7 +71,7 @@ double arriving_flux(const RayCaster& rays, const Source& source) {
         ray.origin = bounds.center() + frame.to_world(across);
         flux = luminance(source.intensity) * std::numbers::pi * radius * radius;
       } else {
-        const double dark = std::cos(source.dark_angle), cosine = 1 - v * (1 - dark);
+        const double dark = source.cos_dark(), cosine = 1 - v * (1 - dark);
         const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
         ray.direction = frame.to_world({sine * std::cos(angle), sine * std::sin(angle), cosine});
         flux = luminance(source.intensity) * source.beam(ray.direction) * 2 * std::numbers::pi *

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "isolux/scene/scene.h"
 #include "isolux/scene/spelling.h"
 
@@ -12,7 +10,6 @@ namespace {
 
 constexpr double kLargestExitance = 1e12;   ///< lm/m², some hundred times that of the sun
 constexpr double kLargestIntensity = 1e15;  ///< cd, or lx
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// The colour that a light's amount is multiplied by: its luminance is 1.
 Rgb read_hue(const Fields& fields) {
@@ -63,12 +60,16 @@ void read_point(const Value& value, Source& source) {
 }
 
 void read_spot(const Value& value, Source& source) {
-  const Fields fields(value, {"position", "look_at", "angles", "intensity", "flux", "color"});
+  const Fields fields(value,
+                      {"position", "direction", "look_at", "angles", "intensity", "flux", "color"});
   source.position = fields.require("position").point();
-  const Value look_at = fields.require("look_at");
-  const Vec3 way = look_at.point() - source.position;
-  if (!(length(way) > 1e-9)) look_at.fail("'look_at' must differ from 'position'");
-  source.direction = normalized(way);
+  const std::optional<Value> direction = fields.find("direction"), look_at = fields.find("look_at");
+  if (direction.has_value() == look_at.has_value()) {
+    value.fail("'spot' must have one of 'direction' and 'look_at'");
+  }
+  const Vec3 way = direction ? direction->direction() : look_at->point() - source.position;
+  if (look_at && !(length(way) > 1e-9)) look_at->fail("'look_at' must differ from 'position'");
+  source.direction = unit_vector(way);
   const Value angles = fields.require("angles");
   const std::vector<Value> both = angles.items(2, 2);
   const double full = both[0].number(), dark = both[1].number();
@@ -77,15 +78,15 @@ void read_spot(const Value& value, Source& source) {
         "'angles' must rise from 0 to 180: the beam is full up to the first (degrees off its "
         "middle) and ends at the second, at least 0.1, such as [20, 30]");
   }
-  source.full_angle = full * kDegree;
-  source.dark_angle = dark * kDegree;
+  source.full_angle = full;
+  source.dark_angle = dark;
   read_strength(value, fields, source);
 }
 
 void read_directional(const Value& value, Source& source) {
   const Fields fields(value, {"direction", "illuminance", "color"});
   source.kind = Source::Kind::directional;
-  source.direction = normalized(fields.require("direction").direction());
+  source.direction = unit_vector(fields.require("direction").direction());
   source.intensity = read_amount(fields, "illuminance");
 }
 

@@ -14,6 +14,7 @@
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/polygon.h"
+#include "isolux/geometry/reversed.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
 #include "isolux/geometry/triangle_mesh.h"
@@ -113,8 +114,12 @@ ShapePtr read_parallelogram(const Value& value) {
 }
 
 ShapePtr read_polygon(const Value& value) {
-  const Fields fields(value, {"points"});
-  return make<Polygon>(value, read_points(fields.require("points")));
+  const Fields fields(value, {"points", "holes"});
+  std::vector<std::vector<Vec3>> holes;
+  if (const auto list = fields.find("holes")) {
+    for (const Value& hole : list->items()) holes.push_back(read_points(hole));
+  }
+  return make<Polygon>(value, read_points(fields.require("points")), holes);
 }
 
 ShapePtr read_mesh(const Value& value) {
@@ -180,6 +185,10 @@ ShapePtr read_complement(const Value& value, int depth) {
   return make<Complement>(value, read_solid(value, value.label(), depth));
 }
 
+ShapePtr read_reversed(const Value& value, int depth) {
+  return make<Reversed>(value, read_nested(value, depth + 1).shape);
+}
+
 /// A shape that holds no others.
 template <ShapePtr (*read)(const Value&)>
 ShapePtr plain(const Value& value, int /*depth*/) {
@@ -205,6 +214,7 @@ constexpr ShapeKind kShapeKinds[] = {
     {"intersection", read_intersection},
     {"difference", read_difference},
     {"complement", read_complement},
+    {"reversed", read_reversed},
 };
 
 ReadShape read_nested(const Value& value, int depth) {

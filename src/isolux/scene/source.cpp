@@ -1,7 +1,6 @@
 #include "isolux/scene/source.h"
 
-#include <algorithm>
-#include <cmath>
+#include <numbers>
 
 namespace isolux {
 namespace {
@@ -11,7 +10,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 double Source::beam(const Vec3& way) const {
-  const double full = std::cos(full_angle), dark = std::cos(dark_angle), at = dot(way, direction);
+  const double full = cos_full(), dark = cos_dark(), at = dot(way, direction);
   if (at >= full) return 1;
   return at > dark ? square((at - dark) / (full - dark)) : 0;
 }
@@ -19,7 +18,7 @@ double Source::beam(const Vec3& way) const {
 double luminous_flux(const Source& source) {
   if (source.kind == Source::Kind::directional) return 0;
   // Over cos θ, the beam is a step of width 1 − cos full, and then a parabola.
-  const double full = std::cos(source.full_angle), dark = std::cos(source.dark_angle);
+  const double full = source.cos_full(), dark = source.cos_dark();
   return 2 * std::numbers::pi * luminance(source.intensity) * (1 - full + (full - dark) / 3);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -22,11 +23,15 @@ struct Source {
   /// Of a point, the luminous intensity in the middle of its beam, cd; of directional light, the
   /// illuminance of a surface across it, lx.
   Rgb intensity;
-  /// A point's beam is full to this angle off its middle (rad) and ends at that one; in between it
-  /// falls as the square of (cos θ − cos dark) / (cos full − cos dark), the law of glTF's
+  /// A point's beam is full to this angle off its middle (degrees) and ends at that one; in between
+  /// it falls as the square of (cos θ − cos dark) / (cos full − cos dark), the law of glTF's
   /// KHR_lights_punctual.
-  double full_angle = std::numbers::pi;
-  double dark_angle = std::numbers::pi;
+  double full_angle = 180;
+  double dark_angle = 180;
+
+  /// Their cosines.
+  double cos_full() const { return std::cos(full_angle * (std::numbers::pi / 180)); }
+  double cos_dark() const { return std::cos(dark_angle * (std::numbers::pi / 180)); }
 
   /// The part of the intensity that goes along `way`, of unit length, from a point.
   double beam(const Vec3& way) const;

@@ -42,6 +42,11 @@ std::size_t size_of(const Vec3&) { return 3; }
 std::size_t size_of(const std::vector<double>& list) { return list.size(); }
 std::size_t size_of(const std::vector<Vec3>& list) { return 3 * list.size(); }
 std::size_t size_of(const ShapeDescription::Triangles& list) { return 3 * list.size(); }
+std::size_t size_of(const ShapeDescription::Outlines& outlines) {
+  std::size_t size = 0;
+  for (const auto& outline : outlines) size += size_of(outline);
+  return size;
+}
 
 std::string triangle(const std::array<std::uint32_t, 3>& t) {
   return fmt::format("[{}, {}, {}]", t[0], t[1], t[2]);
@@ -66,6 +71,12 @@ std::array<std::string, 3> rows_of(const Affine& map) {
     rows[i] = to_yaml_list(std::array{row.x, row.y, row.z, map.translation[static_cast<int>(i)]});
   }
   return rows;
+}
+
+std::string flow(const ShapeDescription::Outlines& outlines) {
+  std::string text = "[";
+  for (const auto& outline : outlines) text += (text.size() > 1 ? ", " : "") + flow(outline);
+  return text + "]";
 }
 
 std::string flow(const Affine& map) {
@@ -118,6 +129,8 @@ void append_items(std::string& text, const std::vector<Item>& items, std::size_t
     text += "- ";
     if constexpr (std::is_same_v<Item, std::array<std::uint32_t, 3>>) {
       text += triangle(item);
+    } else if constexpr (std::is_same_v<Item, std::vector<Vec3>>) {
+      text += flow(item);
     } else {
       text += to_yaml(item);
     }
@@ -234,6 +247,28 @@ void append_object(std::string& text, const Object& object, std::size_t number,
   text += '\n';
 }
 
+void append_source(std::string& text, const Source& source) {
+  Entries entries;
+  std::string_view kind = "point";
+  if (source.kind == Source::Kind::directional) {
+    kind = "directional";
+    entries = {{"direction", to_yaml(source.direction)},
+               {"illuminance", to_yaml(source.intensity)}};
+  } else {
+    entries.emplace_back("position", to_yaml(source.position));
+    if (source.dark_angle < 180) {
+      kind = "spot";
+      entries.emplace_back("direction", to_yaml(source.direction));
+      entries.emplace_back("angles",
+                           to_yaml_list(std::array{source.full_angle, source.dark_angle}));
+    }
+    entries.emplace_back("intensity", to_yaml(source.intensity));
+  }
+  text += "  - ";
+  if (!source.name.empty()) text += "name: " + to_yaml(source.name) + "\n    ";
+  fmt::format_to(std::back_inserter(text), "{}: {}\n", kind, flow_map(entries));
+}
+
 void append_camera(std::string& text, const Camera& camera, const std::string& key) {
   Entries entries{{"eye", to_yaml(camera.eye)}, {"look_at", to_yaml(camera.look_at)}};
   if (camera.up != Camera{}.up) entries.emplace_back("up", to_yaml(unit_vector(camera.up)));
@@ -266,6 +301,9 @@ std::string write_scene(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     append_object(text, scene.objects[i], i + 1, materials[scene.objects[i].material]);
   }
+
+  if (!scene.sources.empty()) text += "\nlights:\n";
+  for (const Source& source : scene.sources) append_source(text, source);
 
   if (!scene.cameras.empty()) text += "\ncameras:\n";
   const std::vector<std::string> cameras = keys_of(scene.cameras, "camera");
