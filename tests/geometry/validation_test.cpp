@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/blob.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
@@ -29,6 +30,39 @@ TEST(ValidationTest, OneLineThatNamesTheNumber) {
       {"center",
        [] {
          Sphere({1e300, 0, 0}, 1);
+       }},
+      {"threshold", [] { Blob(0.5, {}); }},
+      {"threshold",
+       [] {
+         Blob(0, {{kO, 1, 1}});
+       }},
+      {"threshold",
+       [] {
+         Blob(1, {{kO, 1, 1}});
+       }},
+      {"threshold",
+       [] {
+         Blob(0.5, {{kO, 1, -1}});
+       }},
+      {"threshold",
+       [] {
+         Blob(kNan, {{kO, 1, 1}});
+       }},
+      {"center",
+       [] {
+         Blob(0.5, {{kBad, 1, 1}});
+       }},
+      {"radius",
+       [] {
+         Blob(0.5, {{kO, 0, 1}});
+       }},
+      {"strength",
+       [] {
+         Blob(0.5, {{kO, 1, 1}, {kX, 1, 0}});
+       }},
+      {"strength",
+       [] {
+         Blob(0.5, {{kO, 1, kInf}});
        }},
       {"lower", [] { Box(kBad, kX); }},
       {"upper",

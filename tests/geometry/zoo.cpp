@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "isolux/geometry/blob.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/complement.h"
 #include "isolux/geometry/csg.h"
@@ -48,6 +49,23 @@ Level torus_level(Vec3 c, Vec3 axis, double major, double minor) {
   return [=, n = normalized(axis)](const Vec3& p) {
     const double z = dot(p - c, n);
     return std::hypot(length(p - c - n * z) - major, z) - minor;
+  };
+}
+
+/// To first order the distance from the surface; beyond all balls just positive.
+Level blob_level(double threshold, std::vector<BlobBall> balls) {
+  return [=](const Vec3& p) {
+    double field = 0;
+    Vec3 slope;
+    for (const BlobBall& ball : balls) {
+      const Vec3 away = p - ball.center;
+      const double q = 1 - length_squared(away) / (ball.radius * ball.radius);
+      if (!(q > 0)) continue;
+      field += ball.strength * q * q;
+      slope += away * (-4 * ball.strength * q / (ball.radius * ball.radius));
+    }
+    const double steepness = length(slope);
+    return steepness > 0 ? (threshold - field) / steepness : field > threshold ? -1.0 : 1.0;
   };
 }
 
@@ -131,6 +149,17 @@ void add_basic(std::vector<Specimen>& zoo) {
   }
 }
 
+void add_blobs(std::vector<Specimen>& zoo) {
+  const auto add = [&](const std::string& name, double threshold, std::vector<BlobBall> balls) {
+    zoo.push_back({name, std::make_shared<Blob>(threshold, balls), blob_level(threshold, balls)});
+  };
+  const std::vector<BlobBall> four = {
+      {{-0.9, 0, 0}, 1, 1}, {{0.9, 0, 0}, 1, 1}, {{0, 0, -0.9}, 1, 1}, {{0, 0, 0.9}, 1, 1}};
+  add("BlobOfBalls", 0.1, four);
+  add("BlobApart", 0.6, four);
+  add("BlobWithDent", 0.3, {{{1, 2, 3}, 2, 1.5}, {{2, 2, 3.5}, 1, -2}, {{0, 1, 3}, 1.5, 0.7}});
+}
+
 void add_flat(std::vector<Specimen>& zoo) {
   const Vec3 c{1, 2, 3}, n{1, -2, 0.5};
   zoo.push_back({"Disk", std::make_shared<Disk>(c, n, 2), plane_level(c, n)});
@@ -185,6 +214,7 @@ const std::vector<Specimen>& zoo() {
   static const std::vector<Specimen> specimens = [] {
     std::vector<Specimen> all;
     add_basic(all);
+    add_blobs(all);
     add_flat(all);
     add_composed(all);
     return all;

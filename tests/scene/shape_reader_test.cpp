@@ -89,6 +89,15 @@ TEST(ShapeReader, EachShapeIsTheOneThatWasMeant) {
   }
 }
 
+// A ball of strength 4 under the threshold 1 reaches to radius √(1 − √(1/4)).
+TEST(ShapeReader, ABlobOfBalls) {
+  const auto blob = shape(
+      "blob: {threshold: 1, balls: [{center: [1, 0, 0], radius: 2, strength: 4}, "
+      "{center: [9, 0, 0], radius: 1}]}");
+  EXPECT_TRUE(blob->solid());
+  EXPECT_NEAR(thickness(*blob, {{-10, 0, 0}, {1, 0, 0}}), 4 * std::sqrt(0.5), 1e-12);
+}
+
 TEST(ShapeReader, AnInwardBoxIsARoom) {
   const auto room = shape("box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}");
   Hits hits;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/bracketed_root.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/shape_description.h"
@@ -21,28 +22,6 @@ namespace isolux {
 
 namespace {
 
-/// The root of f between a and b, where it changes sign, by Newton's method kept inside the
-/// bracket by bisection. f(s) returns the value and the derivative.
-template <typename F>
-double bracketed_root(const F& f, double a, double b) {
-  const bool rising = f(a).value < 0;
-  double s = 0.5 * (a + b);
-  for (int i = 0; i < 200; ++i) {
-    const auto [value, slope] = f(s);
-    if (value == 0) return s;
-    ((value < 0) == rising ? a : b) = s;
-    double next = s - value / slope;
-    if (!(next > a && next < b)) next = 0.5 * (a + b);
-    if (std::abs(next - s) <= 1e-16 || next == a || next == b) return next;
-    s = next;
-  }
-  return s;
-}
-
-struct Value {
-  double value, slope;
-};
-
 /// The ends of the intervals on which s⁴ + c2 s² + c1 s + c0 is monotonic within [−end, end].
 struct Pieces {
   std::array<double, 5> ends;
@@ -50,15 +29,16 @@ struct Pieces {
 
   Pieces(double c2, double c1, double end) {
     const auto derivative = [=](double s) {
-      return Value{(4 * s * s + 2 * c2) * s + c1, 12 * s * s + 2 * c2};
+      return ValueAndSlope{(4 * s * s + 2 * c2) * s + c1, 12 * s * s + 2 * c2};
     };
     const double turn = c2 < 0 ? std::min(end, std::sqrt(-c2 / 6)) : 0;
     add(-end);
     const std::array<double, 4> steps = {-end, -turn, turn, end};
     for (int i = 0; i < 3; ++i) {
       const double a = steps[i], b = steps[i + 1];
-      if (a < b && (derivative(a).value < 0) != (derivative(b).value < 0)) {
-        add(bracketed_root(derivative, a, b));
+      const bool rising = derivative(a).value < 0;
+      if (a < b && rising != (derivative(b).value < 0)) {
+        add(bracketed_root(derivative, a, b, rising));
       }
     }
     add(end);
@@ -146,13 +126,14 @@ void Torus::intersect(const Ray& ray, Hits& hits) const {
     const double ring = std::sqrt(p.x * p.x + p.y * p.y);
     const double away = ring - R;
     const double ring_slope = ring > 0 ? (p.x * d.x + p.y * d.y) / ring : 0;
-    return Value{away * away + (p.z - r) * (p.z + r), 2 * (away * ring_slope + p.z * d.z)};
+    return ValueAndSlope{away * away + (p.z - r) * (p.z + r), 2 * (away * ring_slope + p.z * d.z)};
   };
   const Pieces pieces(c2, c1, 1.0000001);
   for (int i = 0; i + 1 < pieces.count; ++i) {
     const double a = pieces.ends[i], b = pieces.ends[i + 1];
-    if ((g(a).value < 0) == (g(b).value < 0)) continue;
-    const double s = bracketed_root(g, a, b);
+    const bool rising = g(a).value < 0;
+    if (rising == (g(b).value < 0)) continue;
+    const double s = bracketed_root(g, a, b, rising);
     const Vec3 p = o + d * s;
     const double ring = std::hypot(p.x, p.y);
     const Vec3 on_circle = Vec3{p.x, p.y, 0} * (R / ring);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "isolux/geometry/blob.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/complement.h"
 #include "isolux/geometry/csg.h"
@@ -98,6 +99,18 @@ ShapePtr read_torus(const Value& value) {
   return make<Torus>(value, fields.require("center").point(), fields.require("axis").direction(),
                      fields.require("major_radius").positive_length(),
                      fields.require("minor_radius").positive_length());
+}
+
+ShapePtr read_blob(const Value& value) {
+  const Fields fields(value, {"threshold", "balls"});
+  std::vector<BlobBall> balls;
+  for (const Value& item : fields.require("balls").items(1)) {
+    const Fields ball(item, {"center", "radius", "strength"});
+    const std::optional<Value> strength = ball.find("strength");
+    balls.push_back({ball.require("center").point(), ball.require("radius").positive_length(),
+                     strength ? strength->number() : 1});
+  }
+  return make<Blob>(value, fields.require("threshold").number(), std::move(balls));
 }
 
 ShapePtr read_box(const Value& value) {
@@ -206,6 +219,7 @@ constexpr ShapeKind kShapeKinds[] = {
     {"cone", plain<read_cone>},
     {"disk", plain<read_disk>},
     {"torus", plain<read_torus>},
+    {"blob", plain<read_blob>},
     {"box", plain<read_box>},
     {"parallelogram", plain<read_parallelogram>},
     {"polygon", plain<read_polygon>},
