@@ -121,4 +121,16 @@ ShapeDescription Csg::describe() const {
   return csg;
 }
 
+std::shared_ptr<const Shape> join(CsgOperation operation,
+                                  std::span<const std::shared_ptr<const Shape>> solids) {
+  if (solids.size() == 1) return solids.front();
+  if (operation == CsgOperation::subtract) {
+    return std::make_shared<Csg>(operation, solids.front(),
+                                 join(CsgOperation::unite, solids.subspan(1)));
+  }
+  const std::size_t half = (solids.size() + 1) / 2;
+  return std::make_shared<Csg>(operation, join(operation, solids.first(half)),
+                               join(operation, solids.subspan(half)));
+}
+
 }  // namespace isolux

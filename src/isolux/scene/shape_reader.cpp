@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
 #include "isolux/geometry/blob.h"
 #include "isolux/geometry/box.h"
@@ -29,13 +28,17 @@ using ShapePtr = std::shared_ptr<const Shape>;
 
 constexpr int kDeepestNesting = 100;  ///< of shapes within shapes
 
+[[noreturn]] void refuse(const Value& place, const InputError& error) {
+  place.fail(fmt::format("{} can't be made: {}", in_quotes(place.label()), error.what()));
+}
+
 /// Makes a shape; what its constructor has against the numbers is reported at `place`.
 template <typename T, typename... Numbers>
 ShapePtr make(const Value& place, Numbers&&... numbers) {
   try {
     return std::make_shared<T>(std::forward<Numbers>(numbers)...);
   } catch (const InputError& error) {
-    place.fail(fmt::format("{} can't be made: {}", in_quotes(place.label()), error.what()));
+    refuse(place, error);
   }
 }
 
@@ -171,27 +174,14 @@ std::vector<ShapePtr> read_solids(const Value& value, int depth) {
   return solids;
 }
 
-/// Joins the solids by halves, so that a ray's way down to any of n solids is log2 n steps.
-ShapePtr join(const Value& value, CsgOperation operation, std::span<const ShapePtr> solids) {
-  if (solids.size() == 1) return solids.front();
-  const std::size_t half = (solids.size() + 1) / 2;
-  return make<Csg>(value, operation, join(value, operation, solids.first(half)),
-                   join(value, operation, solids.subspan(half)));
-}
-
-ShapePtr read_union(const Value& value, int depth) {
-  return join(value, CsgOperation::unite, read_solids(value, depth));
-}
-
-ShapePtr read_intersection(const Value& value, int depth) {
-  return join(value, CsgOperation::intersect, read_solids(value, depth));
-}
-
-/// The first without all the others.
-ShapePtr read_difference(const Value& value, int depth) {
+template <CsgOperation operation>
+ShapePtr read_csg(const Value& value, int depth) {
   const std::vector<ShapePtr> solids = read_solids(value, depth);
-  return make<Csg>(value, CsgOperation::subtract, solids.front(),
-                   join(value, CsgOperation::unite, std::span(solids).subspan(1)));
+  try {
+    return join(operation, solids);
+  } catch (const InputError& error) {
+    refuse(value, error);
+  }
 }
 
 ShapePtr read_complement(const Value& value, int depth) {
@@ -224,9 +214,9 @@ constexpr ShapeKind kShapeKinds[] = {
     {"parallelogram", plain<read_parallelogram>},
     {"polygon", plain<read_polygon>},
     {"mesh", plain<read_mesh>},
-    {"union", read_union},
-    {"intersection", read_intersection},
-    {"difference", read_difference},
+    {"union", read_csg<CsgOperation::unite>},
+    {"intersection", read_csg<CsgOperation::intersect>},
+    {"difference", read_csg<CsgOperation::subtract>},
     {"complement", read_complement},
     {"reversed", read_reversed},
 };

@@ -1,0 +1,199 @@
+#include "isolux/formats/rayshade/builder.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "isolux/formats/rayshade/leaves.h"
+#include "isolux/formats/rayshade/lights.h"
+#include "isolux/formats/rayshade/parser.h"
+#include "isolux/formats/rayshade/solids.h"
+#include "isolux/geometry/instance.h"
+#include "isolux/geometry/triangle_mesh.h"
+
+namespace isolux::rayshade {
+namespace {
+
+constexpr double kMostReflectance = 0.99;
+constexpr double kPlaneSide = 6;  ///< of the scene's size
+
+class Builder {
+ public:
+  Builder(const Model& model, Notes& notes)
+      : model_(model), notes_(notes), leaves_(leaves_of(model.objects)) {
+    measure();
+  }
+  Scene build();
+
+ private:
+  void measure();
+  ShapePtr shape_of(const Leaf& leaf);
+  ShapePtr local_shape(const Leaf& leaf);
+  std::uint32_t material_of(const Surface& surface);
+  SurfacePtr surface_of(const Leaf& leaf);
+  static std::string unique(const std::string& name, std::size_t number,
+                            std::set<std::string>& names);
+  std::string name_of(const Leaf& leaf);
+  Camera camera() const;
+
+  const Model& model_;
+  Notes& notes_;
+  std::vector<Leaf> leaves_;
+  Extent extent_;
+  PlaneCut cut_;
+  Solids solids_{cut_, notes_};
+  Scene scene_;
+  std::map<const Node*, ShapePtr> meshes_;
+  std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;
+  std::set<std::string> material_names_, object_names_;
+};
+
+/// Finds the scene's middle and size. Planes count with their point nearest to the middle.
+void Builder::measure() {
+  Bounds finite;
+  FiniteBounds bounds;
+  for (const Leaf& leaf : leaves_) finite.include(bounds.of(leaf));
+  if (finite.empty()) finite.include(model_.view.look_at);
+  extent_.middle = finite.center();
+  finite.include(model_.view.eye);
+  for (const Light& light : model_.lights) {
+    if (light.kind != Light::Kind::directional) finite.include(light.position);
+  }
+  for (const Leaf& leaf : leaves_) {
+    const auto* plane = std::get_if<Plane>(&leaf.node->geometry);
+    if (plane) finite.include(foot_on(mapped(*plane, leaf.map), extent_.middle));
+  }
+  extent_.size = finite.diagonal();
+  cut_ = {extent_.middle, kPlaneSide * extent_.size};
+}
+
+/// The leaf's shape in its own frame, shared by all mentions of it.
+ShapePtr Builder::local_shape(const Leaf& leaf) {
+  const Node& node = *leaf.node;
+  if (const auto* shape = std::get_if<ShapePtr>(&node.geometry)) return *shape;
+  if (const auto* tube = std::get_if<Tube>(&node.geometry)) return tube->side;
+  if (const auto* disc = std::get_if<Disc>(&node.geometry)) return disc->shape;
+  if (const auto* facets = std::get_if<Facets>(&node.geometry)) {
+    if (facets->polygon) return facets->polygon;
+    ShapePtr& mesh = meshes_[&node];
+    if (!mesh) {
+      mesh = make<TriangleMesh>(node.place, node.word, facets->soup.points, facets->soup.triangles);
+    }
+    return mesh;
+  }
+  return solids_.solid(node, leaf.map);
+}
+
+ShapePtr Builder::shape_of(const Leaf& leaf) {
+  const Node& node = *leaf.node;
+  if (const auto* plane = std::get_if<Plane>(&node.geometry)) {
+    notes_.add(fmt::format("planes are cut to squares with a side of {} times the scene's size",
+                           kPlaneSide));
+    try {
+      return cut_.square(*plane, leaf.map);
+    } catch (const InputError& error) {
+      fail(node.place, fmt::format("'plane' can't be made: {}", error.what()));
+    }
+  }
+  ShapePtr shape = local_shape(leaf);
+  return leaf.moved ? make<Instance>(node.place, node.word, std::move(shape), leaf.map) : shape;
+}
+
+/// Collects what surfaces the solid's parts have: `around` where they name none.
+void collect_surfaces(const Node& node, SurfacePtr around, std::vector<SurfacePtr>& surfaces) {
+  if (node.surface) around = node.surface;
+  if (const auto* reference = std::get_if<Reference>(&node.geometry)) {
+    collect_surfaces(*reference->target, around, surfaces);
+  } else if (const auto* group = std::get_if<Group>(&node.geometry)) {
+    for (const NodePtr& member : group->members) collect_surfaces(*member, around, surfaces);
+  } else if (surfaces.empty() || surfaces.back() != around) {
+    surfaces.push_back(around);
+  }
+}
+
+SurfacePtr Builder::surface_of(const Leaf& leaf) {
+  std::vector<SurfacePtr> surfaces;
+  collect_surfaces(*leaf.node, leaf.surface, surfaces);
+  if (surfaces.size() > 1) {
+    notes_.add("a solid that CSG joins of several surfaces has that of its first part");
+  }
+  return !surfaces.empty() && surfaces.front() ? surfaces.front() : default_surface();
+}
+
+std::uint32_t Builder::material_of(const Surface& surface) {
+  const auto& [r, g, b] = surface.diffuse;
+  const auto index = static_cast<std::uint32_t>(scene_.materials.size());
+  const auto [found, is_new] = materials_.try_emplace({surface.name, r, g, b}, index);
+  if (!is_new) return found->second;
+  if (max_channel(surface.diffuse) > kMostReflectance) {
+    notes_.add(
+        fmt::format("'diffuse' is at most {} here, so that light gets less at each reflection",
+                    kMostReflectance));
+  }
+  const auto limited = [](double x) { return std::min(x, kMostReflectance); };
+  scene_.materials.push_back(
+      {unique(surface.name, index + 1, material_names_), {limited(r), limited(g), limited(b)}});
+  return index;
+}
+
+/// The name, with a number where there is such a name already.
+std::string Builder::unique(const std::string& name, std::size_t number,
+                            std::set<std::string>& names) {
+  const std::string chosen = names.contains(name) ? fmt::format("{} {}", name, number) : name;
+  names.insert(chosen);
+  return chosen;
+}
+
+std::string Builder::name_of(const Leaf& leaf) {
+  const std::size_t number = scene_.objects.size() + 1;
+  if (!leaf.name) return fmt::format("{} {}", leaf.node->word, number);
+  if (!leaf.alone) return fmt::format("{} {} {}", *leaf.name, leaf.node->word, number);
+  return unique(*leaf.name, number, object_names_);
+}
+
+Camera Builder::camera() const {
+  const View& view = model_.view;
+  const Vec3 forward = normalized(view.look_at - view.eye);
+  if (!(length(cross(forward, normalized(view.up))) > 1e-6)) {
+    const char* fault = "the view needs 'eyep' and 'lookp' apart, and 'up' not along it";
+    if (view.place) fail(*view.place, fault);
+    throw InputError(fault);
+  }
+  Camera camera;
+  camera.name = "default";
+  camera.eye = view.eye;
+  camera.look_at = view.look_at;
+  camera.up = view.up;
+  camera.width = view.width;
+  camera.height = view.height;
+  using std::numbers::pi;
+  const double half_width = std::tan(view.horizontal_fov * pi / 360);
+  camera.fov =
+      view.vertical_fov.value_or(std::atan(half_width * view.height / view.width) * 360 / pi);
+  return camera;
+}
+
+Scene Builder::build() {
+  for (const Leaf& leaf : leaves_) {
+    const auto* facets = std::get_if<Facets>(&leaf.node->geometry);
+    if (facets && facets->soup.triangles.empty()) continue;
+    Object object;
+    object.name = name_of(leaf);
+    object.shape = shape_of(leaf);
+    object.material = material_of(*surface_of(leaf));
+    object.sides = object.shape->solid() ? Sides::front : Sides::both;
+    scene_.objects.push_back(std::move(object));
+  }
+  add_lights(model_.lights, extent_, scene_, notes_);
+  scene_.cameras.push_back(camera());
+  return std::move(scene_);
+}
+
+}  // namespace
+
+Scene build_scene(const Model& model, Notes& notes) { return Builder(model, notes).build(); }
+
+}  // namespace isolux::rayshade

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "isolux/formats/rayshade/model.h"
+#include "isolux/formats/rayshade/notes.h"
+#include "isolux/scene/scene.h"
+
+namespace isolux::rayshade {
+
+/// The extent of a scene without its lights.
+struct Extent {
+  Vec3 middle;      ///< m, of all that is finite
+  double size = 0;  ///< m, the diagonal of all, the eye included
+};
+
+/// Adds a shining surface for each light: spheres for points, disks for spots and, far off, for
+/// directional lights; extended and area lights have surfaces of their own.
+///
+/// In Rayshade a light of intensity I makes a surface that faces it appear as I times its diffuse
+/// color, however far it is. That appearance is read as luminance in cd/m², which asks for an
+/// illuminance of π I lx. Light here spreads, so that it is π I at the middle of the scene only.
+void add_lights(const std::vector<Light>& lights, const Extent& extent, Scene& scene, Notes& notes);
+
+}  // namespace isolux::rayshade
