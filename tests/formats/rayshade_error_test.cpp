@@ -69,6 +69,8 @@ TEST(RayshadeErrors, NameTheirPlaceAndTheMend) {
       {"sphere 1 0 0 0 texture wod", "1:24: ", "did you mean 'wood'?"},
       {"heightfield no-such.hf", "1:13: ", "no file"},
       {"", "1:1: ", "the scene is empty"},
+      {"eyep 0 -1e12 0\nsphere 1 0 0 0", "2:1: ", "the scene is 1e+12 m large"},
+      {"sphere 1 0 0 0\nlight 1 extended 1e-9 0 0 9", "2:1: ", "too bright for its size"},
       {"list end diffuse 1 1 1", "1:10: ", "'diffuse' can't stand here"},
   };
   for (const Case& c : cases) {

@@ -195,5 +195,19 @@ TEST(RayshadeObjects, ManyMentionsShareOneShape) {
   EXPECT_FALSE(scene.objects[999].shape->contains({18.1, 18.1, 18.1}));
 }
 
+TEST(RayshadeObjects, WhatIsClosedAroundTheEyeIsARoom) {
+  const SceneFile file = read_rayshade_text("box -9 -9 -9 9 9 9 sphere 1 0 0 0 eyep 0 -5 0");
+  EXPECT_TRUE(file.scene.objects[0].shape->unbounded());
+  EXPECT_FALSE(file.scene.objects[1].shape->unbounded());
+  EXPECT_TRUE(has_note(file, "seen from inside"));
+  // A tetrahedron wound inside out looks out all the same.
+  const auto mesh = rayshade_shape(
+      "list triangle 0 0 0 1 0 0 0 1 0 triangle 0 0 0 0 0 1 1 0 0\n"
+      "triangle 0 0 0 0 1 0 0 0 1 triangle 1 0 0 0 0 1 0 1 0 end");
+  ASSERT_TRUE(mesh->solid());
+  EXPECT_FALSE(mesh->unbounded());
+  EXPECT_TRUE(mesh->contains({0.1, 0.1, 0.1}));
+}
+
 }  // namespace
 }  // namespace isolux

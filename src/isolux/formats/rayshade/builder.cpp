@@ -9,8 +9,9 @@
 
 #include "isolux/formats/rayshade/leaves.h"
 #include "isolux/formats/rayshade/lights.h"
-#include "isolux/formats/rayshade/parser.h"
+#include "isolux/formats/rayshade/make.h"
 #include "isolux/formats/rayshade/solids.h"
+#include "isolux/geometry/complement.h"
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/triangle_mesh.h"
 
@@ -18,7 +19,8 @@ namespace isolux::rayshade {
 namespace {
 
 constexpr double kMostReflectance = 0.99;
-constexpr double kPlaneSide = 6;  ///< of the scene's size
+constexpr double kSmallestScene = 1e-6, kLargestScene = 1e10;  ///< m
+constexpr double kPlaneSide = 6;                               ///< of the scene's size
 
 class Builder {
  public:
@@ -32,6 +34,7 @@ class Builder {
   void measure();
   ShapePtr shape_of(const Leaf& leaf);
   ShapePtr local_shape(const Leaf& leaf);
+  ShapePtr seen_from_eye(ShapePtr shape);
   std::uint32_t material_of(const Surface& surface);
   SurfacePtr surface_of(const Leaf& leaf);
   static std::string unique(const std::string& name, std::size_t number,
@@ -67,6 +70,11 @@ void Builder::measure() {
     if (plane) finite.include(foot_on(mapped(*plane, leaf.map), extent_.middle));
   }
   extent_.size = finite.diagonal();
+  if (!(extent_.size >= kSmallestScene && extent_.size <= kLargestScene)) {
+    fail(leaves_.front().node->place,
+         fmt::format("the scene is {:.3g} m large, and must be between {:g} and {:g} m",
+                     extent_.size, kSmallestScene, kLargestScene));
+  }
   cut_ = {extent_.middle, kPlaneSide * extent_.size};
 }
 
@@ -100,6 +108,14 @@ ShapePtr Builder::shape_of(const Leaf& leaf) {
   }
   ShapePtr shape = local_shape(leaf);
   return leaf.moved ? make<Instance>(node.place, node.word, std::move(shape), leaf.map) : shape;
+}
+
+/// Rayshade shows surfaces from both sides. Solids have but one: what is closed around the eye, as
+/// a room is, and a mesh that is wound inside out, is turned over.
+ShapePtr Builder::seen_from_eye(ShapePtr shape) {
+  if (!shape->solid() || !shape->contains(model_.view.eye)) return shape;
+  if (!shape->unbounded()) notes_.add("what is closed around the eye is a room, seen from inside");
+  return std::make_shared<Complement>(std::move(shape));
 }
 
 /// Collects what surfaces the solid's parts have: `around` where they name none.
@@ -177,18 +193,18 @@ Camera Builder::camera() const {
 }
 
 Scene Builder::build() {
+  scene_.cameras.push_back(camera());
   for (const Leaf& leaf : leaves_) {
     const auto* facets = std::get_if<Facets>(&leaf.node->geometry);
     if (facets && facets->soup.triangles.empty()) continue;
     Object object;
     object.name = name_of(leaf);
-    object.shape = shape_of(leaf);
+    object.shape = seen_from_eye(shape_of(leaf));
     object.material = material_of(*surface_of(leaf));
     object.sides = object.shape->solid() ? Sides::front : Sides::both;
     scene_.objects.push_back(std::move(object));
   }
   add_lights(model_.lights, extent_, scene_, notes_);
-  scene_.cameras.push_back(camera());
   return std::move(scene_);
 }
 

@@ -17,6 +17,7 @@ using std::numbers::pi;
 constexpr double kPointRadius = 1.0 / 200;  ///< of the scene's size
 constexpr double kFar = 10;                 ///< of the scene's size, to directional lights
 constexpr double kFarRadius = 0.5;          ///< of the scene's size: 2.9° at that distance
+constexpr double kLargestExitance = 1e12;   ///< lm/m²
 
 struct Lamp {
   const char* kind;
@@ -114,8 +115,13 @@ void add_lights(const std::vector<Light>& lights, const Extent& extent, Scene& s
     const Lamp lamp = lamp_for(light, extent, scene);
     note(light, notes);
     const std::string name = fmt::format("{} {}", lamp.kind, lamps.size() + 1);
+    const Rgb exitance = light.intensity * (pi * lamp.gain);
+    if (!(max_channel(exitance) <= kLargestExitance)) {
+      fail(light.place,
+           "this light is too bright for its size: more than 1e12 lm/m2 would leave it");
+    }
     const Sides sides = lamp.shape->solid() ? Sides::front : Sides::both;
-    lamps.push_back({name, lamp.shape, material, sides, light.intensity * (pi * lamp.gain)});
+    lamps.push_back({name, lamp.shape, material, sides, exitance});
   }
   if (lamps.empty()) return;
   scene.materials.push_back({"light", {}});

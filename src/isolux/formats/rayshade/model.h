@@ -75,6 +75,7 @@ struct Node {
 struct Light {
   enum class Kind { point, directional, extended, spot, area };
   Kind kind = Kind::point;
+  Place place;
   Rgb intensity;
   Vec3 position;      ///< of an area light its corner
   Vec3 direction;     ///< towards a directional light; from a spot light

@@ -2,6 +2,7 @@
 
 #include "isolux/core/file.h"
 #include "isolux/formats/rayshade/height_field.h"
+#include "isolux/formats/rayshade/make.h"
 #include "isolux/formats/rayshade/parser.h"
 #include "isolux/geometry/blob.h"
 #include "isolux/geometry/box.h"

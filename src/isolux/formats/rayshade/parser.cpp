@@ -119,6 +119,7 @@ bool Parser::light_item() {
 
 void Parser::light(const Place& place) {
   Light light;
+  light.place = place;
   const double first = tokens_.number();
   light.intensity = gray(first);
   if (tokens_.number_follows()) {

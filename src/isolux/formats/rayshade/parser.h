@@ -88,14 +88,4 @@ class Parser {
   std::vector<SurfacePtr> current_;  ///< of the scene and each group around, perhaps nothing
 };
 
-/// Makes a shape; what its constructor has against the numbers is reported at that place.
-template <typename T, typename... Numbers>
-std::shared_ptr<const T> make(const Place& place, std::string_view word, Numbers&&... numbers) {
-  try {
-    return std::make_shared<T>(std::forward<Numbers>(numbers)...);
-  } catch (const InputError& error) {
-    fail(place, "'" + std::string(word) + "' can't be made: " + error.what());
-  }
-}
-
 }  // namespace isolux::rayshade

@@ -17,6 +17,7 @@ SceneFile read(const std::filesystem::path& path) {
     notes.add("no light in the file: the directional light of Rayshade's default stands in");
     Light light;
     light.kind = Light::Kind::directional;
+    light.place.file = &source.files.front();
     light.intensity = gray(1);
     light.direction = {1, -1, 1};
     model.lights.push_back(light);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "isolux/formats/rayshade/parser.h"
+#include "isolux/formats/rayshade/make.h"
 #include "isolux/geometry/frustum.h"
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/tessellation.h"
