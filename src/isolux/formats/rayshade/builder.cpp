@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
@@ -113,30 +114,34 @@ ShapePtr Builder::shape_of(const Leaf& leaf) {
 /// Rayshade shows surfaces from both sides. Solids have but one: what is closed around the eye, as
 /// a room is, and a mesh that is wound inside out, is turned over.
 ShapePtr Builder::seen_from_eye(ShapePtr shape) {
-  if (!shape->solid() || !shape->contains(model_.view.eye)) return shape;
+  const Vec3& eye = model_.view.eye;
+  const bool may_contain = shape->unbounded() || shape->bounds().encloses({eye, eye});
+  if (!shape->solid() || !may_contain || !shape->contains(eye)) return shape;
   if (!shape->unbounded()) notes_.add("what is closed around the eye is a room, seen from inside");
   return std::make_shared<Complement>(std::move(shape));
 }
 
-/// Collects what surfaces the solid's parts have: `around` where they name none.
+/// The surfaces of a leaf's parts, those inside a solid included; `around` where they name none.
 void collect_surfaces(const Node& node, SurfacePtr around, std::vector<SurfacePtr>& surfaces) {
   if (node.surface) around = node.surface;
   if (const auto* reference = std::get_if<Reference>(&node.geometry)) {
     collect_surfaces(*reference->target, around, surfaces);
   } else if (const auto* group = std::get_if<Group>(&node.geometry)) {
     for (const NodePtr& member : group->members) collect_surfaces(*member, around, surfaces);
-  } else if (surfaces.empty() || surfaces.back() != around) {
-    surfaces.push_back(around);
+  } else {
+    surfaces.push_back(around ? around : default_surface());
   }
 }
 
 SurfacePtr Builder::surface_of(const Leaf& leaf) {
   std::vector<SurfacePtr> surfaces;
   collect_surfaces(*leaf.node, leaf.surface, surfaces);
-  if (surfaces.size() > 1) {
+  const SurfacePtr& first = surfaces.front();
+  if (std::any_of(surfaces.begin(), surfaces.end(),
+                  [&](const SurfacePtr& s) { return s->diffuse != first->diffuse; })) {
     notes_.add("a solid that CSG joins of several surfaces has that of its first part");
   }
-  return !surfaces.empty() && surfaces.front() ? surfaces.front() : default_surface();
+  return first;
 }
 
 std::uint32_t Builder::material_of(const Surface& surface) {

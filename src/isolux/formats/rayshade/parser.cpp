@@ -9,6 +9,7 @@ namespace isolux::rayshade {
 namespace {
 
 constexpr int kLargestPicture = 32768;  ///< pixels a side
+constexpr std::size_t kMostLights = 1000;
 constexpr std::string_view kViewWords[] = {"eyep", "lookp", "up", "fov", "screen"};
 
 }  // namespace
@@ -173,6 +174,9 @@ void Parser::light(const Place& place) {
     fail(place, "the direction of a light must not be 0");
   }
   if (tokens_.accept("noshadow")) notes_.left_out("noshadow", "everything casts shadows");
+  if (model_.lights.size() >= kMostLights) {
+    fail(place, fmt::format("the scene has more than {} lights", kMostLights));
+  }
   model_.lights.push_back(light);
 }
 

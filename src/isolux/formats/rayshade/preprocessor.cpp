@@ -123,8 +123,9 @@ void Preprocessor::read_file(const fs::path& path) {
   joined_ = false;
   read_text(in);
   joined_ = false;
-  if (conditions_.size() > outer)
+  if (conditions_.size() > outer) {
     fail(conditions_.back().place, "this condition lacks its '#endif'");
+  }
 }
 
 void Preprocessor::read_text(Cursor& in) {
@@ -176,8 +177,9 @@ void Preprocessor::identifier(Cursor& in) {
   if (macros_.takes_arguments(name)) {
     int depth = 0;
     do {
-      if (in.at_end())
+      if (in.at_end()) {
         fail(place, fmt::format("the call of macro {} lacks its ')'", in_quotes(name)));
+      }
       if (in.next_is("/*")) {
         in.skip_comment();
         continue;
