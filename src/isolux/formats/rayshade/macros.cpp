@@ -7,6 +7,7 @@
 namespace isolux::rayshade {
 namespace {
 
+constexpr std::size_t kMostParameters = 100;                 ///< of a macro
 constexpr std::size_t kMostCalls = 1'000'000;                ///< of macros in a scene
 constexpr std::size_t kMostWritten = std::size_t{64} << 20;  ///< bytes that they make together
 constexpr int kDeepest = 100;                                ///< of calls in calls
@@ -81,6 +82,10 @@ void Macros::define(std::string_view text, const Place& place) {
     if (macro.parameters->size() == 1 && macro.parameters->front().empty()) {
       macro.parameters->clear();
     }
+    if (macro.parameters->size() > kMostParameters) {
+      fail(place,
+           fmt::format("macro {} has more than {} parameters", in_quotes(name), kMostParameters));
+    }
     for (const std::string& parameter : *macro.parameters) {
       if (parameter.empty() || leading_identifier(parameter) != parameter) {
         fail(place, fmt::format("{} is no name for a parameter of {}", in_quotes(parameter),
@@ -147,6 +152,7 @@ std::string Macros::expand(std::string_view text, const Place& place) {
 std::string Macros::call(Macro& macro, const std::vector<std::string>& arguments,
                          const Place& place) {
   if (++calls_ > kMostCalls) fail(place, "the scene expands more than a million macros");
+  written_ += macro.body.size();  // even where nothing comes of it
   std::string body;
   for (std::string_view rest = macro.body; !rest.empty();) {
     std::string_view part = leading_part(rest);
