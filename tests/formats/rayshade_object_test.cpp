@@ -61,8 +61,8 @@ TEST(RayshadeObjects, PlanesAreCutFarOut) {
   const Bounds box = file.scene.objects[0].shape->bounds();
   EXPECT_NEAR(box.lower.z, -1, 1e-12);
   EXPECT_NEAR(box.upper.z, -1, 1e-12);
-  EXPECT_LT(box.lower.x, -30);
-  EXPECT_GT(box.upper.y, 30);
+  EXPECT_LT(box.lower.x, -20);
+  EXPECT_GT(box.upper.y, 15);
   EXPECT_TRUE(has_note(file, "planes are cut"));
   // Whatever is around it: here a plane turned to look along x.
   const Scene turned = rayshade_scene(

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kMostReflectance = 0.99;
 constexpr double kSmallestScene = 1e-6, kLargestScene = 1e10;  ///< m
-constexpr double kPlaneSide = 6;                               ///< of the scene's size
+constexpr double kPlaneSide = 4;                               ///< of the scene's size
 
 class Builder {
  public:
