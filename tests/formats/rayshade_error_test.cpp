@@ -60,6 +60,7 @@ TEST(RayshadeErrors, NameTheirPlaceAndTheMend) {
       {"#define R (1 +)\nsphere R 0 0 0", "2:8: ", "a number must stand here, not ')'"},
       {"light 1 lamp 0 0 0", "1:9: ", "unknown kind of light 'lamp'"},
       {"light -1 point 0 0 5\nsphere 1 0 0 0", "1:1: ", "intensity"},
+      {"light 1 spot 0 0 5 0 0 0 1 30 20", "1:1: ", "angles of a spot light must rise"},
       {"light 1 directional 0 0 0", "1:1: ", "direction of a light must not be 0"},
       {"sphere 1 0 0 0\nup 0 1 0", "2:1: ", "'up' not along it"},
       {"fov 180", "1:1: ", "between 0 and 180"},

@@ -27,10 +27,10 @@ TEST_F(RayshadeFiles, AllAreRead) {
     std::size_t objects, lights, materials;
   };
   const std::map<std::string, Counts> expected = {
-      {"ashtray.def", {2, 1, 2}}, {"ashtray", {3, 1, 3}}, {"balls", {14, 3, 3}},
-      {"blob", {4, 2, 2}},        {"boxball", {3, 1, 2}}, {"csg", {7, 3, 3}},
-      {"glass.def", {2, 1, 2}},   {"glass", {3, 1, 3}},   {"planet", {2, 1, 2}},
-      {"pool", {29, 1, 13}},      {"stripe", {2, 1, 2}},
+      {"ashtray.def", {1, 1, 1}}, {"ashtray", {2, 1, 2}}, {"balls", {11, 3, 2}},
+      {"blob", {2, 2, 1}},        {"boxball", {2, 1, 1}}, {"csg", {4, 3, 2}},
+      {"glass.def", {1, 1, 1}},   {"glass", {2, 1, 2}},   {"planet", {1, 1, 1}},
+      {"pool", {28, 1, 12}},      {"stripe", {1, 1, 1}},
   };
   std::size_t files = 0;
   for (const auto& entry : fs::directory_iterator(kFolder)) {
@@ -55,7 +55,10 @@ TEST_F(RayshadeFiles, AllAreRead) {
       EXPECT_TRUE(is_finite(object.exitance)) << object.name;
       EXPECT_LT(object.material, scene.materials.size());
     }
-    EXPECT_EQ(lights, counts.lights);
+    for (const Source& source : scene.sources) {
+      EXPECT_TRUE(is_finite(source.position) && is_finite(source.intensity)) << source.name;
+    }
+    EXPECT_EQ(lights + scene.sources.size(), counts.lights);
     for (const Material& material : scene.materials) {
       EXPECT_GE(min_channel(material.reflectance), 0);
       EXPECT_LT(max_channel(material.reflectance), 1);

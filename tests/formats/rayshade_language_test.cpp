@@ -126,7 +126,7 @@ TEST(RayshadeLanguage, WhatIsLeftOutIsNamedOnce) {
       "  texture stripe s .1 3 map planar 0 0 0 0 0 1 1 0 0\n"
       "  texture image ../a-b.rle component diffuse tile 2 2 textsurf s range 0 1 smooth map uv\n"
       "sphere s 1 5 0 0 texture wood\n");
-  EXPECT_EQ(file.scene.objects.size(), 3u);
+  EXPECT_EQ(file.scene.objects.size(), 2u);
   std::size_t textures = 0;
   for (const std::string& note : file.notes) {
     textures += note.find("'texture'") != std::string::npos;

@@ -25,61 +25,68 @@ double illuminance(const Object& lamp, const Vec3& p) {
   return sum * luminance(lamp.exitance);
 }
 
+double illuminance(const Source& source, const Vec3& p) {
+  if (source.kind == Source::Kind::directional) return luminance(source.intensity);
+  const Vec3 d = p - source.position;
+  return luminance(source.intensity) * source.beam(normalized(d)) / length_squared(d);
+}
+
 // A perfectly white surface there has then the luminance 1 cd/m², what Rayshade would call 1.
 TEST(RayshadeLights, GivePiLuxAtTheMiddleOfTheScene) {
   const std::string ball = "sphere 1 5 6 7\n";
-  struct Case {
-    const char* light;
-    double tolerance;
-  };
-  const Case cases[] = {
-      {"light 1 point 5 6 30", 0.01},
-      {"light 1 extended .5 15 6 7", 0.01},
-      {"light 1 directional 1 2 3", 0.01},
-      {"light 1 spot 25 6 7 5 6 7 1", 0.01},
-      {"light 1 area 4 5 37 6 5 37 3 4 7 37 3", 0.01},  // its front is turned to the scene
-      {"light 1 area 4 5 37 4 7 37 3 6 5 37 3 noshadow", 0.01},
-      {"", 0.01},  // Rayshade's own
-  };
-  for (const Case& c : cases) {
-    SCOPED_TRACE(c.light);
-    const Scene scene = rayshade_scene(ball + c.light);
+  const Vec3 middle{5, 6, 7};
+  for (const char* light : {
+           "light 1 point 5 6 30", "light 1 directional 1 2 3", "light 1 spot 25 6 7 5 6 7 1",
+           "light 1 spot 25 6 7 5 6 7 1 10 20", "",  // Rayshade's own
+       }) {
+    SCOPED_TRACE(light);
+    const Scene scene = rayshade_scene(ball + light);
+    EXPECT_EQ(scene.objects.size(), 1u);
+    ASSERT_EQ(scene.sources.size(), 1u);
+    EXPECT_NEAR(illuminance(scene.sources[0], middle), pi, 1e-9);
+  }
+  for (const char* light :
+       {"light 1 extended .5 15 6 7",
+        "light 1 area 4 5 37 6 5 37 3 4 7 37 3",  // its front is turned to the scene
+        "light 1 area 4 5 37 4 7 37 3 6 5 37 3 noshadow"}) {
+    SCOPED_TRACE(light);
+    const Scene scene = rayshade_scene(ball + light);
     ASSERT_EQ(scene.objects.size(), 2u);
     ASSERT_TRUE(scene.objects[1].emits());
     EXPECT_EQ(max_channel(scene.material_of(1).reflectance), 0);
-    EXPECT_NEAR(illuminance(scene.objects[1], {5, 6, 7}), pi, c.tolerance * pi);
+    EXPECT_NEAR(illuminance(scene.objects[1], middle), pi, 0.01 * pi);
   }
 }
 
 TEST(RayshadeLights, ComeWhereTheyShould) {
-  const auto lamp = [](const std::string& light) {
-    return rayshade_scene("sphere 1 0 0 0 eyep 0 -10 0 light 1 " + light).objects.at(1);
+  const auto scene = [](const std::string& light) {
+    return rayshade_scene("sphere 1 0 0 0 eyep 0 -10 0 light 1 " + light);
   };
-  expect_near(lamp("point 0 0 5").shape->bounds().center(), {0, 0, 5});
-  expect_near(lamp("extended .5 0 0 5").shape->bounds().upper, {.5, .5, 5.5});
-  const Vec3 far = lamp("directional 0 3 4").shape->bounds().center();
-  EXPECT_NEAR(angle_between(far, {0, 3, 4}), 0, 1e-12);
-  EXPECT_GT(length(far), 50);
-  const Bounds quad = lamp("area -1 -1 5 1 -1 5 2 -1 1 5 2").shape->bounds();
+  EXPECT_EQ(scene("point 0 0 5").sources.at(0).position, (Vec3{0, 0, 5}));
+  expect_near(scene("extended .5 0 0 5").objects.at(1).shape->bounds().upper, {.5, .5, 5.5});
+  expect_near(scene("directional 0 3 4").sources.at(0).direction, {0, -0.6, -0.8});
+  const Bounds quad = scene("area -1 -1 5 1 -1 5 2 -1 1 5 2").objects.at(1).shape->bounds();
   expect_near(quad.lower, {-1, -1, 5});
   expect_near(quad.upper, {1, 1, 5});
+}
+
+TEST(RayshadeLights, SpotsKeepToTheirCone) {
+  const Scene scene =
+      rayshade_scene("sphere 1 0 0 0 light 1 spot 0 0 5 0 0 0 2 15 30\nlight 1 spot 0 0 9 0 0 0 1");
+  const Source& narrow = scene.sources.at(0);
+  EXPECT_EQ(narrow.full_angle, 15);
+  EXPECT_EQ(narrow.dark_angle, 30);
+  expect_near(narrow.direction, {0, 0, -1});
+  EXPECT_EQ(scene.sources.at(1).dark_angle, 90);
 }
 
 TEST(RayshadeLights, HaveTheirColor) {
   const Scene scene =
       rayshade_scene("sphere 1 0 0 0 light .2 .4 .8 point 0 0 5 light 0 point 1 0 9");
-  ASSERT_EQ(scene.objects.size(), 2u) << "the dark one is no object";
-  const Rgb m = scene.objects[1].exitance;
-  EXPECT_NEAR(m.g / m.r, 2, 1e-12);
-  EXPECT_NEAR(m.b / m.r, 4, 1e-12);
-}
-
-TEST(RayshadeLights, SmallSpheresKeepClearOfSurfaces) {
-  const Scene scene =
-      rayshade_scene("box -5 -5 0 5 5 10 translate 0 0 0.002 light 1 point 0 0 0\neyep 0 -30 0");
-  const Bounds lamp = scene.objects[1].shape->bounds();
-  EXPECT_LE(lamp.upper.z, 0.002);
-  EXPECT_GT(lamp.upper.z, 0.0005);
+  ASSERT_EQ(scene.sources.size(), 1u) << "the dark one is none";
+  const Rgb intensity = scene.sources[0].intensity;
+  EXPECT_NEAR(intensity.g / intensity.r, 2, 1e-12);
+  EXPECT_NEAR(intensity.b / intensity.r, 4, 1e-12);
 }
 
 }  // namespace

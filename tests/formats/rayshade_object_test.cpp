@@ -103,7 +103,7 @@ TEST(RayshadeObjects, TrianglesInARowAreOneMesh) {
       "triangle 0 0 0 1 0 0 0 1 0\ntriangle 1 0 0 1 1 0 0 1 0\n"
       "triangle 0 0 0 0 0 0 0 1 0 /* no area */\n"
       "triangle red 0 0 1 1 0 1 0 1 1\n");
-  ASSERT_EQ(scene.objects.size(), 3u);  // with the light
+  ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_EQ(scene.objects[0].shape->part_count(), 2u);
   EXPECT_EQ(scene.objects[1].shape->part_count(), 1u);
 }
@@ -132,7 +132,7 @@ TEST(RayshadeObjects, SurfacesAreThoseOfRayshade) {
   EXPECT_EQ(scene.objects[1].material, scene.objects[8].material);
   std::set<std::string> names;
   for (const Material& material : scene.materials) EXPECT_TRUE(names.insert(material.name).second);
-  EXPECT_EQ(scene.materials.size(), 7u);
+  EXPECT_EQ(scene.materials.size(), 6u);
 }
 
 TEST(RayshadeObjects, AMentionsSurfaceIsForPartsThatHaveNone) {
@@ -173,8 +173,7 @@ TEST(RayshadeObjects, MentionsAndNames) {
   std::vector<std::string> names;
   for (const Object& object : scene.objects) names.push_back(object.name);
   const std::vector<std::string> expected = {
-      "leg",         "leg 2", "table box 3", "leg 4",    "leg 5",
-      "table box 6", "ball",  "ball 8",      "sphere 9", "directional light 1"};
+      "leg", "leg 2", "table box 3", "leg 4", "leg 5", "table box 6", "ball", "ball 8", "sphere 9"};
   EXPECT_EQ(names, expected);
   expect_near(scene.objects[4].shape->bounds().center(), {6, 0, 0.5}, 1e-12);
 }
@@ -190,7 +189,7 @@ TEST(RayshadeObjects, ManyMentionsShareOneShape) {
   for (int i = 0; i < 10; ++i)
     text += "object hundred translate 0 0 " + std::to_string(2 * i) + "\n";
   const Scene scene = rayshade_scene(text);
-  EXPECT_EQ(scene.objects.size(), 1001u);
+  EXPECT_EQ(scene.objects.size(), 1000u);
   EXPECT_TRUE(scene.objects[999].shape->contains({18.9, 18.9, 18.9}));
   EXPECT_FALSE(scene.objects[999].shape->contains({18.1, 18.1, 18.1}));
 }

@@ -76,7 +76,7 @@ TEST(RayshadeSolids, OpenCylindersOfAListGetCapsFromItsDiscs) {
 
 TEST(RayshadeSolids, OutsideCsgCylindersStayOpen) {
   const Scene scene = rayshade_scene("list cylinder 1 0 0 0 0 0 2 disc 1 0 0 0 0 0 -1 end");
-  ASSERT_EQ(scene.objects.size(), 3u);
+  ASSERT_EQ(scene.objects.size(), 2u);
   EXPECT_FALSE(scene.objects[0].shape->solid());
   EXPECT_EQ(scene.objects[0].sides, Sides::both);
 }

@@ -7,6 +7,7 @@
 #include "isolux/core/error.h"
 #include "isolux/geometry/bracketed_root.h"
 #include "isolux/geometry/require.h"
+#include "isolux/geometry/shape_description.h"
 
 namespace isolux {
 
@@ -103,7 +104,7 @@ Ends monotonic_pieces(const std::vector<Chord>& chords, double middle, double wi
 }  // namespace
 
 Blob::Blob(double threshold, std::vector<BlobBall> balls)
-    : threshold_(threshold), balls_(std::move(balls)) {
+    : threshold_(threshold), given_(std::move(balls)), balls_(given_) {
   double most = 0;
   std::size_t swelling = 0;
   for (const BlobBall& ball : balls_) {
@@ -131,6 +132,14 @@ Blob::Blob(double threshold, std::vector<BlobBall> balls)
   center_ = bounds_.center();
   unit_ = std::max(0.5 * bounds_.diagonal(), kShortestLength);
   for (BlobBall& ball : balls_) ball.center = local(ball.center), ball.radius /= unit_;
+}
+
+ShapeDescription Blob::describe() const {
+  std::vector<ShapeDescription::Record> balls;
+  for (const auto& [center, radius, strength] : given_) {
+    balls.push_back({{"center", center}, {"radius", radius}, {"strength", strength}});
+  }
+  return {"blob", {{"threshold", threshold_}, {"balls", std::move(balls)}}, {}, {}};
 }
 
 void Blob::intersect(const Ray& ray, Hits& hits) const {

@@ -23,12 +23,14 @@ class Blob final : public Shape {
   void intersect(const Ray& ray, Hits& hits) const override;
   bool solid() const override { return true; }
   bool contains(const Vec3& point) const override;
+  ShapeDescription describe() const override;
 
  private:
   Vec3 local(const Vec3& point) const { return (point - center_) / unit_; }
   Vec3 outward(const Vec3& local_point, const Vec3& otherwise) const;
 
   double threshold_;
+  std::vector<BlobBall> given_;
   std::vector<BlobBall> balls_;  ///< in the local frame
   Bounds bounds_;
   Vec3 center_;      ///< of the bounds, the origin of the local frame

@@ -47,6 +47,20 @@ std::size_t size_of(const ShapeDescription::Outlines& outlines) {
   for (const auto& outline : outlines) size += size_of(outline);
   return size;
 }
+std::size_t size_of(const ShapeDescription::Record& record);
+std::size_t size_of(const std::vector<ShapeDescription::Record>& records) {
+  std::size_t size = 0;
+  for (const auto& record : records) size += size_of(record);
+  return size;
+}
+std::size_t size_of(const ShapeDescription::Value& value) {
+  return std::visit([](const auto& v) { return size_of(v); }, value);
+}
+std::size_t size_of(const ShapeDescription::Record& record) {
+  std::size_t size = 0;
+  for (const auto& field : record) size += size_of(field.value);
+  return size;
+}
 
 std::string triangle(const std::array<std::uint32_t, 3>& t) {
   return fmt::format("[{}, {}, {}]", t[0], t[1], t[2]);
@@ -85,19 +99,25 @@ std::string flow(const Affine& map) {
   return fmt::format("[{{matrix: [{}, {}, {}]}}]", x, y, z);
 }
 
-std::size_t size_of(const ShapeDescription::Value& value) {
-  return std::visit([](const auto& v) { return size_of(v); }, value);
-}
-
 std::size_t size_of(const ShapeDescription& shape) {
-  std::size_t size = shape.transform ? 12 : 0;
-  for (const auto& field : shape.fields) size += size_of(field.value);
+  std::size_t size = (shape.transform ? 12 : 0) + size_of(shape.fields);
   for (const ShapeDescription& operand : shape.operands) size += size_of(operand);
   return size;
 }
 
+std::string flow(const ShapeDescription::Record& record);
+std::string flow(const std::vector<ShapeDescription::Record>& records) {
+  std::string text = "[";
+  for (const auto& record : records) text += (text.size() > 1 ? ", " : "") + flow(record);
+  return text + "]";
+}
 std::string flow(const ShapeDescription::Value& value) {
   return std::visit([](const auto& v) { return flow(v); }, value);
+}
+std::string flow(const ShapeDescription::Record& record) {
+  Entries entries;
+  for (const auto& [key, value] : record) entries.emplace_back(key, flow(value));
+  return flow_map(entries);
 }
 
 std::string flow(const ShapeDescription& shape);
@@ -111,9 +131,7 @@ std::string flow_content(const ShapeDescription& shape) {
       list += (list.size() > 1 ? ", " : "") + flow(operand);
     return list + "]";
   }
-  Entries entries;
-  for (const auto& field : shape.fields) entries.emplace_back(field.key, flow(field.value));
-  return flow_map(entries);
+  return flow(shape.fields);
 }
 
 std::string flow(const ShapeDescription& shape) {
@@ -129,7 +147,7 @@ void append_items(std::string& text, const std::vector<Item>& items, std::size_t
     text += "- ";
     if constexpr (std::is_same_v<Item, std::array<std::uint32_t, 3>>) {
       text += triangle(item);
-    } else if constexpr (std::is_same_v<Item, std::vector<Vec3>>) {
+    } else if constexpr (requires { item.begin(); }) {
       text += flow(item);
     } else {
       text += to_yaml(item);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "isolux/geometry/disk.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/sphere.h"
 
@@ -14,94 +13,66 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kPointRadius = 1.0 / 200;  ///< of the scene's size
-constexpr double kFar = 10;                 ///< of the scene's size, to directional lights
-constexpr double kFarRadius = 0.5;          ///< of the scene's size: 2.9° at that distance
-constexpr double kLargestExitance = 1e12;   ///< lm/m²
+constexpr double kNearest = 1e-3;          ///< of the scene's size: a light in its middle
+constexpr double kLargestExitance = 1e12;  ///< lm/m²
 
+/// What stands for a light with a surface: its shape, and its exitance for each lx at the middle of
+/// the scene.
 struct Lamp {
-  const char* kind;
   std::shared_ptr<const Shape> shape;
-  double gain;  ///< exitance for each lx at the middle of the scene
+  double gain;
 };
 
-/// The radius that a small sphere may have there without touching anything, as far as is known.
-double free_radius(const Vec3& center, double wanted, const Scene& scene) {
-  double radius = wanted;
-  for (int halvings = 0; halvings < 8; ++halvings, radius *= 0.5) {
-    const Vec3 half = Vec3{1, 1, 1} * radius;
-    const Bounds box{center - half, center + half};
-    const bool free = std::all_of(scene.objects.begin(), scene.objects.end(),
-                                  [&](const Object& o) { return o.shape->avoids(box); });
-    if (free) return radius;
+Lamp extended_light(const Light& light, const Extent& extent) {
+  const double away = std::max(distance(light.position, extent.middle), light.radius);
+  // A sphere of radius r and exitance M sends M r² / d² to the distance d.
+  return {std::make_shared<Sphere>(light.position, light.radius),
+          away * away / (light.radius * light.radius)};
+}
+
+Lamp area_light(const Light& light, const Extent& extent) {
+  const Vec3 middle = light.position + (light.u + light.v) * 0.5;
+  const Vec3 normal = cross(light.u, light.v);
+  const bool faces = dot(normal, extent.middle - middle) >= 0;
+  const double away = distance(middle, extent.middle);
+  return {std::make_shared<Parallelogram>(light.position, faces ? light.u : light.v,
+                                          faces ? light.v : light.u),
+          std::max(1.0, pi * away * away / length(normal))};
+}
+
+Source source_of(const Light& light, const Extent& extent) {
+  Source source;
+  if (light.kind == Light::Kind::directional) {
+    source.kind = Source::Kind::directional;
+    source.direction = -normalized(light.direction);
+    source.intensity = light.intensity * pi;
+    return source;
   }
-  return wanted;
-}
-
-/// A sphere or disk of radius r and exitance M sends M r² / d² to the distance d.
-double round_gain(double distance, double radius) {
-  return distance * distance / (radius * radius);
-}
-
-Lamp lamp_for(const Light& light, const Extent& extent, const Scene& scene) {
-  const double small = kPointRadius * extent.size;
-  double away = distance(light.position, extent.middle);
-  switch (light.kind) {
-    case Light::Kind::point: {
-      const double radius = free_radius(light.position, small, scene);
-      away = std::max(away, radius);
-      return {"point light", std::make_shared<Sphere>(light.position, radius),
-              round_gain(away, radius)};
-    }
-    case Light::Kind::extended:
-      away = std::max(away, light.radius);
-      return {"extended light", std::make_shared<Sphere>(light.position, light.radius),
-              round_gain(away, light.radius)};
-    case Light::Kind::spot: {
-      const double radius = free_radius(light.position, small, scene);
-      away = std::max(away, radius);
-      return {"spot light", std::make_shared<Disk>(light.position, light.direction, radius),
-              round_gain(away, radius)};
-    }
-    case Light::Kind::area: {
-      const Vec3 middle = light.position + (light.u + light.v) * 0.5;
-      const Vec3 normal = cross(light.u, light.v);
-      const bool faces = dot(normal, extent.middle - middle) >= 0;
-      away = distance(middle, extent.middle);
-      return {"area light",
-              std::make_shared<Parallelogram>(light.position, faces ? light.u : light.v,
-                                              faces ? light.v : light.u),
-              std::max(1.0, pi * away * away / length(normal))};
-    }
-    case Light::Kind::directional:
-      break;
+  source.position = light.position;
+  const double away = std::max(distance(light.position, extent.middle), kNearest * extent.size);
+  source.intensity = light.intensity * (pi * away * away);
+  if (light.kind == Light::Kind::spot) {
+    source.direction = normalized(light.direction);
+    source.full_angle = light.full_angle;
+    source.dark_angle = light.dark_angle;
   }
-  const Vec3 direction = normalized(light.direction);
-  const double radius = kFarRadius * extent.size;
-  away = kFar * extent.size;
-  return {"directional light",
-          std::make_shared<Disk>(extent.middle + direction * away, -direction, radius),
-          1 + round_gain(away, radius)};  // 1 / sin² of its half angle
+  return source;
 }
 
-void note(const Light& light, Notes& notes) {
-  switch (light.kind) {
+const char* name_of(Light::Kind kind) {
+  switch (kind) {
     case Light::Kind::point:
-      notes.add(fmt::format("point lights are small spheres, {} of the scene's size in radius",
-                            kPointRadius));
-      break;
-    case Light::Kind::spot:
-      notes.add("spot lights are small disks that shine by the cosine, whatever their cone");
-      break;
+      return "point light";
     case Light::Kind::directional:
-      notes.add(fmt::format("directional lights are disks at {} times the scene's size", kFar));
-      break;
-    case Light::Kind::area:
-      notes.add("area lights shine from the side that faces the scene's middle");
-      break;
+      return "directional light";
     case Light::Kind::extended:
-      break;
+      return "extended light";
+    case Light::Kind::spot:
+      return "spot light";
+    case Light::Kind::area:
+      return "area light";
   }
+  return "";
 }
 
 }  // namespace
@@ -109,23 +80,28 @@ void note(const Light& light, Notes& notes) {
 void add_lights(const std::vector<Light>& lights, const Extent& extent, Scene& scene,
                 Notes& notes) {
   const auto material = static_cast<std::uint32_t>(scene.materials.size());
-  std::vector<Object> lamps;
+  std::size_t number = 0;
   for (const Light& light : lights) {
     if (max_channel(light.intensity) == 0) continue;
-    const Lamp lamp = lamp_for(light, extent, scene);
-    note(light, notes);
-    const std::string name = fmt::format("{} {}", lamp.kind, lamps.size() + 1);
-    const Rgb exitance = light.intensity * (pi * lamp.gain);
+    const std::string name = fmt::format("{} {}", name_of(light.kind), ++number);
+    if (light.kind != Light::Kind::extended && light.kind != Light::Kind::area) {
+      scene.sources.push_back(source_of(light, extent));
+      scene.sources.back().name = name;
+      continue;
+    }
+    const bool area = light.kind == Light::Kind::area;
+    if (area) notes.add("area lights shine from the side that faces the scene's middle");
+    const auto [shape, gain] = area ? area_light(light, extent) : extended_light(light, extent);
+    const Rgb exitance = light.intensity * (pi * gain);
     if (!(max_channel(exitance) <= kLargestExitance)) {
       fail(light.place,
            "this light is too bright for its size: more than 1e12 lm/m2 would leave it");
     }
-    const Sides sides = lamp.shape->solid() ? Sides::front : Sides::both;
-    lamps.push_back({name, lamp.shape, material, sides, exitance});
+    if (scene.materials.size() == material) scene.materials.push_back({"light", {}});
+    const Sides sides = shape->solid() ? Sides::front : Sides::both;
+    scene.objects.push_back({name, shape, material, sides, exitance});
   }
-  if (lamps.empty()) return;
-  scene.materials.push_back({"light", {}});
-  std::move(lamps.begin(), lamps.end(), std::back_inserter(scene.objects));
+  if (number == 0) return;
   notes.add(
       "a light of intensity 1 gives pi lx at the scene's middle, by which a surface there looks "
       "as bright as its 'diffuse' color; unlike in Rayshade it fades with the distance");

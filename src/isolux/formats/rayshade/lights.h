@@ -12,8 +12,8 @@ struct Extent {
   double size = 0;  ///< m, the diagonal of all, the eye included
 };
 
-/// Adds a shining surface for each light: spheres for points, disks for spots and, far off, for
-/// directional lights; extended and area lights have surfaces of their own.
+/// Adds the lights: sources for points, spots and directional lights, shining surfaces for extended
+/// and area lights.
 ///
 /// In Rayshade a light of intensity I makes a surface that faces it appear as I times its diffuse
 /// color, however far it is. That appearance is read as luminance in cd/m², which asks for an

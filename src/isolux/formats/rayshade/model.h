@@ -77,10 +77,11 @@ struct Light {
   Kind kind = Kind::point;
   Place place;
   Rgb intensity;
-  Vec3 position;      ///< of an area light its corner
-  Vec3 direction;     ///< towards a directional light; from a spot light
-  Vec3 u, v;          ///< the edges of an area light
-  double radius = 0;  ///< of an extended light
+  Vec3 position;                            ///< of an area light its corner
+  Vec3 direction;                           ///< towards a directional light; from a spot light
+  Vec3 u, v;                                ///< the edges of an area light
+  double radius = 0;                        ///< of an extended light
+  double full_angle = 90, dark_angle = 90;  ///< of a spot light, degrees off its middle
 };
 
 /// How the scene is looked at: what the file leaves out is as Rayshade has it.

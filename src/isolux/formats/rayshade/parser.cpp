@@ -150,8 +150,16 @@ void Parser::light(const Place& place) {
     light.kind = Light::Kind::spot;
     light.position = point();
     light.direction = point() - light.position;
+    notes_.left_out("the exponent of spot", "the beam fades between its angles alone");
     tokens_.number();
-    if (tokens_.number_follows()) tokens_.skip_numbers(2);
+    if (tokens_.number_follows()) {
+      light.full_angle = tokens_.number();
+      light.dark_angle = tokens_.number();
+      if (!(light.full_angle >= 0 && light.dark_angle >= 0.1 &&
+            light.full_angle <= light.dark_angle && light.dark_angle <= 180)) {
+        fail(place, "the angles of a spot light must rise, the second from 0.1 to 180 degrees");
+      }
+    }
   } else if (tokens_.accept("area")) {
     light.kind = Light::Kind::area;
     light.position = point();
