@@ -1,5 +1,6 @@
 #include "isolux/discretization/cover.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -157,6 +158,32 @@ TEST(CoverTest, CarvedDieRingAndTumbler) {
   const Coverage coverage = coverage_of(mesh, rays, 100'000, 7);
   EXPECT_GT(coverage.covered, 0.995 * coverage.area);
   EXPECT_LT(thin_part(mesh), 0.05);
+}
+
+// Four strips that turn by 32 degrees at each fold: less than a triangle may span, more than the
+// distance of points on round surfaces allows for.
+TEST(CoverTest, BluntEdgesAskForFinerPointsWithinReason) {
+  std::string points, triangles;
+  Vec3 p{0, 0, 0};
+  for (int i = 0; i <= 4; ++i) {
+    points += fmt::format("[{0}, 0, {1}], [{0}, 1, {1}], ", p.x, p.z);
+    const double angle = 0.56 * (i - 1.5);
+    p += Vec3{std::cos(angle), 0, -std::sin(angle)} * 0.4;
+    if (i < 4) {
+      triangles += fmt::format("[{}, {}, {}], [{}, {}, {}], ", 2 * i, 2 * i + 2, 2 * i + 1,
+                               2 * i + 1, 2 * i + 2, 2 * i + 3);
+    }
+  }
+  const Scene scene = scene_of(
+      fmt::format("materials: {{m: {{reflectance: 0.5}}}}\nobjects: [{{shape: {{mesh: {{points: "
+                  "[{}], triangles: [{}]}}}}, material: m, sides: front}}]",
+                  points, triangles));
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.1);
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  const Coverage coverage = coverage_of(mesh, rays, 100'000, 7);
+  EXPECT_GT(coverage.covered, 0.995 * coverage.area);
+  EXPECT_LT(mesh.vertices().size(), 5000u) << "a tenth of a metre apart, finer along the folds";
 }
 
 TEST(CoverTest, LightsEmitAndOthersDoNot) {

@@ -12,8 +12,10 @@ constexpr double kTurnPerSize = 0.55;
 // Size in a strip, in widths of it; not less than this part of the spacing.
 constexpr double kStripWidths = 2;
 constexpr double kLeastStrip = 1.0 / 32;
-// No curvature makes points finer than this part of the largest size on their object.
+// No curvature makes points finer than this part of the largest size on their object, and no edge
+// between flat parts than that one.
 constexpr double kLeastSize = 1.0 / 64;
+constexpr double kLeastAtFolds = 1.0 / 8;
 // Sizes grow by this much a metre.
 constexpr double kGrading = 0.5;
 // The least distance of two points, and of a point from a crease, in sizes.
@@ -45,17 +47,40 @@ double CoverPoints::fineness(double size) const {
   return std::max(1e-5 * size, 0.5 * walk_.rays().epsilon());
 }
 
+/// Whether most of the turn on the way from a point to `there`, `away` from it in direction d, is
+/// made at one edge between flat parts, which finer points would not make any flatter.
+bool CoverPoints::turns_at_once(const ZonePoint& point, const ZonePoint& there, double away,
+                                const Vec3& d) const {
+  constexpr int kHalvings = 4;
+  constexpr double kMost = 0.6;
+  double near = 0, far = away;
+  Vec3 before = point.normal, behind = there.normal;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double t = (near + far) / 2;
+    const auto found = walk_.step(point, point.position + d * t);
+    if (!found) return false;
+    if (angle_between(found->normal, before) < angle_between(found->normal, behind)) {
+      near = t, before = found->normal;
+    } else {
+      far = t, behind = found->normal;
+    }
+  }
+  return angle_between(before, behind) > kMost * angle_between(there.normal, point.normal);
+}
+
 CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const Vec3& first,
                                                    double limit) const {
   constexpr double kNear = 0.35;
   const Vec3 second = cross(point.normal, first);
   Surroundings around{limit};
   const double most_turn = kTurnPerSize * walk_.normal_tolerance();
-  double curvature = 0;
+  double curvature = 0, fold = 0;
   // Over an edge so blunt that it counts as smooth, less turn than that would read as curvature.
-  const auto see_turn = [&](const ZonePoint& there, double away) {
+  const auto see_turn = [&](const ZonePoint& there, double away, const Vec3& d) {
     const double turn = angle_between(there.normal, point.normal);
-    if (turn > most_turn) curvature = std::max(curvature, turn / away);
+    if (turn <= most_turn) return;
+    double& bend = turns_at_once(point, there, away, d) ? fold : curvature;
+    bend = std::max(bend, turn / away);
   };
   std::array<double, kDirections> ends;
   ends.fill(std::numeric_limits<double>::infinity());
@@ -70,11 +95,11 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
         break;
       }
       near = t;
-      see_turn(*found, t);
+      see_turn(*found, t, d);
     }
     if (far == 0) continue;
     const Rim rim = walk_.rim(point, d, near, far, limit / 64);
-    if (rim.distance > 0) see_turn(rim.point, rim.distance);
+    if (rim.distance > 0) see_turn(rim.point, rim.distance, d);
     const Vec3 on = tangential(d, rim.point.normal);
     if (!walk_.step(rim.point, rim.point.position + on * (limit / 16))) {
       ends[k] = rim.distance;
@@ -84,6 +109,9 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
   }
   const double least = std::min(limit, kLeastSize * largest_on(point));
   around.size = std::clamp(most_turn / std::max(curvature, 1e-30), least, limit);
+  around.size =
+      std::min(around.size, std::clamp(most_turn / std::max(fold, 1e-30),
+                                       std::min(limit, kLeastAtFolds * largest_on(point)), limit));
   for (int k = 0; k < kDirections / 2; ++k) {
     const auto shortest = [&](int i) {
       return ends[i] <= ends[(i + 1) % kDirections] &&

@@ -62,6 +62,8 @@ class CoverPoints {
     ZonePoint turn_off_from = {};
     Vec3 turn_off = {};
   };
+  bool turns_at_once(const ZonePoint& point, const ZonePoint& there, double away,
+                     const Vec3& d) const;
   Surroundings look_around(const ZonePoint& point, const Vec3& first, double limit) const;
   bool crowded(const ZonePoint& point, double size) const;
   double graded(const ZonePoint& point, double size) const;
