@@ -1,39 +1,19 @@
 #pragma once
 
-#include <memory>
-
-#include "isolux/geometry/shape.h"
+#include "isolux/geometry/reversed.h"
 
 namespace isolux {
 
 /// A solid turned inside out: all space but it. The complement of a box is a room seen from inside.
-/// Faces, parts and bounds() (of the surface) are the solid's own.
-class Complement final : public Shape {
+class Complement final : public Reversed {
  public:
   /// Throws InputError where `shape` is not solid.
   explicit Complement(std::shared_ptr<const Shape> shape);
 
-  Bounds bounds() const override { return shape_->bounds(); }
-  void intersect(const Ray& ray, Hits& hits) const override;
-  bool occludes(const Ray& ray, double t_min, double t_max) const override;
-  void occlude(const SegmentBlock& segments, double t_max,
-               SegmentBlock::Mask& blocked) const override;
-  bool avoids(const Bounds& box) const override { return shape_->avoids(box); }
   bool solid() const override { return true; }
   bool contains(const Vec3& point) const override { return !shape_->contains(point); }
   bool unbounded() const override { return !shape_->unbounded(); }
-  std::uint32_t face_count() const override { return shape_->face_count(); }
-  std::optional<double> area() const override { return shape_->area(); }
-  std::optional<TriangleSoup> triangulate(double max_edge) const override;
   ShapeDescription describe() const override;
-
-  std::size_t part_count() const override { return shape_->part_count(); }
-  Bounds part_bounds(std::size_t part) const override { return shape_->part_bounds(part); }
-  void intersect_part(std::size_t part, const Ray& ray, Hits& hits) const override;
-  bool part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const override;
-
- private:
-  std::shared_ptr<const Shape> shape_;
 };
 
 }  // namespace isolux

@@ -10,7 +10,7 @@ void require_solid(const std::shared_ptr<const Shape>& shape) {
   if (shape && shape->solid()) return;
   throw InputError(
       "union, intersection and difference need solids; close the open surface (a cylinder by "
-      "capped: true, a mesh by filling its holes)");
+      "leaving out 'open: true', a mesh by filling its holes)");
 }
 
 /// The bounds of the surface of a ∩ b, either of which may be unbounded.

@@ -9,8 +9,9 @@ namespace isolux {
 /// A surface turned over: its normals point the other way. It is open even where the shape is
 /// solid: the skin of a ball seen from within, with nothing but air on either side (a Complement
 /// fills all space outside). Faces, parts and bounds are the shape's own.
-class Reversed final : public Shape {
+class Reversed : public Shape {
  public:
+  /// Throws InputError where there is no shape.
   explicit Reversed(std::shared_ptr<const Shape> shape);
 
   Bounds bounds() const override { return shape_->bounds(); }
@@ -31,7 +32,7 @@ class Reversed final : public Shape {
   bool part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const override;
   ShapeDescription describe() const override;
 
- private:
+ protected:
   std::shared_ptr<const Shape> shape_;
 };
 

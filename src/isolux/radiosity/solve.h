@@ -19,9 +19,10 @@ struct Solved {
 
 /// The light of the scene on a triangulation grown from nothing: by gathering, or by the paper's
 /// procedure Radiosity (§3.2.1).
-/// Throws InputError where the scene has no light that can be cut into triangles or lies more than
-/// 1000 of its sizes from the origin, options are out of range, or the camera does not exist. The
-/// same scene, options and seed give the same bits on any number of threads.
+/// Throws InputError where the scene has no light (by the paper's procedure: none that can be cut
+/// into triangles, or one without a surface) or lies more than 1000 of its sizes from the origin,
+/// options are out of range, or the camera does not exist. The same scene, options and seed give
+/// the same bits on any number of threads.
 Solved solve(const Scene& scene, const Options& options, const ProgressCallback& progress = {});
 
 /// The same by gathering, in full: told between rounds, and perhaps on from a checkpoint.
