@@ -359,17 +359,17 @@ class Group {
 std::vector<std::uint8_t> separate_lights(const Scene& scene) {
   constexpr double kBright = 1.5;
   std::vector<Share> shares;
-  for (Index i = 0; i < scene.objects.size(); ++i) shares.push_back(share_of(scene, i));
+  Share all;
+  for (Index i = 0; i < scene.objects.size(); ++i) {
+    shares.push_back(share_of(scene, i));
+    all.flux += shares[i].flux;
+    all.absorbing += shares[i].absorbing;
+  }
   std::vector<std::uint8_t> separate(scene.objects.size(), 0);
   for (Index i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (!object.emits()) continue;
-    Share others;
-    for (Index k = 0; k < shares.size(); ++k) {
-      if (k == i) continue;
-      others.flux += shares[k].flux;
-      others.absorbing += shares[k].absorbing;
-    }
+    const Share others{all.flux - shares[i].flux, all.absorbing - shares[i].absorbing};
     separate[i] = luminance(object.exitance) * others.absorbing >= kBright * others.flux &&
                   object.shape->triangulate(object.shape->bounds().diagonal());
   }

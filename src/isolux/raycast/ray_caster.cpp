@@ -14,8 +14,10 @@ namespace {
 struct Query : RTCIntersectContext {
   Interval within;
   const Ray* ray = nullptr;
-  // For nearest(): the best hit so far, and how close together, in t, hits coincide.
+  // For nearest(): the best hit so far, whether it is on a side that takes part in the exchange of
+  // light, and how close together, in t, hits coincide.
   std::optional<SurfaceHit> first;
+  bool first_takes_part = false;
   double tie = 0;
   const Scene* scene = nullptr;
   // For all_hits(): where they go.
@@ -50,13 +52,13 @@ bool earlier(const SurfaceHit& a, const SurfaceHit& b) {
          std::tuple(b.t, b.surface.object, b.surface.face);
 }
 
-/// Whether two hits lie on one and the same plane, the surface of one object glued to another's.
+/// Whether two hits lie in one and the same plane, the surface of one object glued to another's.
 bool glued(const SurfaceHit& a, const SurfaceHit& b, double tie) {
   return a.surface.object != b.surface.object && std::abs(a.t - b.t) <= tie &&
          std::abs(dot(a.normal, b.normal)) > 0.9999;
 }
 
-/// Of two surfaces glued together, whether a's is the one that is there.
+/// Of two surfaces glued together that face alike, whether a's is the one that is there.
 bool covers(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   const auto rank = [&](const SurfaceHit& hit) {
     return std::pair(scene.objects[hit.surface.object].emits(), hit.surface.object);
@@ -93,11 +95,17 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
       if (primitive.both_sides) query.all->push_back(other_side(found));
       continue;
     }
-    const bool first = !query.first || (glued(found, *query.first, query.tie)
-                                            ? covers(*query.scene, found, *query.first)
-                                            : earlier(found, *query.first));
+    const bool takes_part = primitive.both_sides || dot(found.normal, query.ray->direction) < 0;
+    bool first = !query.first;
+    if (query.first && !glued(found, *query.first, query.tie)) {
+      first = earlier(found, *query.first);
+    } else if (query.first) {
+      first = takes_part != query.first_takes_part ? takes_part
+                                                   : covers(*query.scene, found, *query.first);
+    }
     if (first) {
       query.first = found;
+      query.first_takes_part = takes_part;
       float& tfar = RTCRayN_tfar(reinterpret_cast<RTCRayN*>(args->rayhit), args->N, 0);
       tfar = static_cast<float>((found.t + query.tie) * (1 + 1e-6));
     }
@@ -209,7 +217,7 @@ void RayCaster::all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit
   hidden.assign(hits.size(), 0);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     for (std::size_t j = i + 1; j < hits.size() && hits[j].t - hits[i].t <= tie; ++j) {
-      if (!glued(hits[i], hits[j], tie)) continue;
+      if (!glued(hits[i], hits[j], tie) || dot(hits[i].normal, hits[j].normal) < 0) continue;
       hidden[covers(impl_->scene, hits[i], hits[j]) ? j : i] = 1;
     }
   }

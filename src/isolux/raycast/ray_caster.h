@@ -74,13 +74,14 @@ class RayCaster {
   /// points on surfaces are lifted off them.
   double epsilon() const { return epsilon_; }
 
-  /// The first hit; its normal faces the ray's origin where the surface has two sides.
+  /// The first hit; its normal faces the ray's origin where the surface has two sides. Where
+  /// surfaces of two objects coincide, as for all_hits(), but those that face the ray go first.
   std::optional<SurfaceHit> nearest(const Ray& ray, Interval within = {}) const;
 
   /// All hits, in ascending t, into `hits` (cleared first). A surface with two sides gives two
   /// hits at the same t, the one that faces the ray first. Where surfaces of two objects coincide
-  /// (equal t within epsilon, parallel), only one is there: a light before others, then the object
-  /// that comes later in the scene.
+  /// (equal t within epsilon, facing alike), only one is there: a light before others, then the
+  /// object that comes later in the scene.
   void all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit>& hits) const;
 
   /// Whether anything lies strictly between the ends of the segment, the last millionth of its
