@@ -2,16 +2,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <thread>
 
+#include "arguments.h"
 #include "commands.h"
+#include "exit_code.h"
+#include "interruption.h"
+#include "isolux/core/parallel.h"
+#include "isolux/inspection/inspect.h"
+#include "isolux/radiosity/furnace.h"
+#include "isolux/radiosity/solve.h"
+#include "isolux/radiosity/stopwatch.h"
+#include "isolux/scene/spelling.h"
 #include "output.h"
+#include "progress_line.h"
 #include "scene_input.h"
 
 namespace isolux {
 namespace {
+
+constexpr std::size_t kMostListed = 100;  // objects
+
+struct Arguments {
+  SceneInput scene;
+  bool furnace = false;
+  Options options;
+  double seconds = 0;  // at most; 0: no bound
+  int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+};
 
 std::string describe(const Bounds& b) {
   return fmt::format("({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} {:.6g})", b.lower.x, b.lower.y,
@@ -25,34 +47,111 @@ std::string describe(const ObjectReport& object) {
                      "", describe(object.bounds));
 }
 
-void run(const SceneInput& input) {
-  const SceneFile file = input.load();
-  SceneReport report = check_scene(file.scene);
-  report.warnings.insert(report.warnings.begin(), file.notes.begin(), file.notes.end());
+std::string describe(const std::map<std::string, std::size_t>& primitives) {
+  std::string text;
+  for (const auto& [kind, count] : primitives) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", kind, count);
+  }
+  return text;
+}
+
+std::string describe_escape(std::optional<double> escaping) {
+  if (!escaping) return "closed or open: not known, without light or camera";
+  if (*escaping == 0) return "closed: no ray of light leaves it";
+  return fmt::format("open: {:.2g} % of the rays of light leave it", 100 * *escaping);
+}
+
+void check(const Scene& scene, const Arguments& a, const std::vector<std::string>& notes) {
+  const SceneReport report = check_scene(scene);
+  const Inspection inspection = inspect_scene(RayCaster(scene));
   std::string text = fmt::format(
       "{}: {}\n"
       "objects {}, materials {}, cameras {}, lights {} with {:.6g} lm together\n"
-      "plain numbers are in {}; bounds {} m\n\n"
+      "primitives: {}\n"
+      "plain numbers are in {}; bounds {} m\n"
+      "{}\n\n"
       "   area m²    flux lm  object (material), bounds in m\n",
-      input.path.string(), report.name.empty() ? "(no name)" : report.name, report.objects.size(),
-      report.materials, report.cameras, report.lights, report.flux, report.unit,
-      describe(report.bounds));
-  for (const ObjectReport& object : report.objects) text += describe(object);
-  for (const std::string& warning : report.warnings) {
-    fmt::format_to(std::back_inserter(text), "\nwarning: {}", warning);
+      a.scene.path.string(), report.name.empty() ? "(no name)" : report.name, report.objects.size(),
+      report.materials, report.cameras, report.lights, report.flux, describe(report.primitives),
+      report.unit, describe(report.bounds), describe_escape(inspection.escaping));
+  const std::size_t listed = std::min(kMostListed, report.objects.size());
+  for (std::size_t i = 0; i < listed; ++i) text += describe(report.objects[i]);
+  if (report.objects.size() > listed) {
+    text += fmt::format("{:23}and {} more\n", "", report.objects.size() - listed);
   }
-  text += report.warnings.empty() ? "\nnothing doubtful\n" : "\n";
+  std::size_t count = 0;
+  for (const auto* warnings : {&notes, &report.warnings, &inspection.warnings}) {
+    count += warnings->size();
+    for (const std::string& warning : *warnings) {
+      fmt::format_to(std::back_inserter(text), "\nwarning: {}", warning);
+    }
+  }
+  text += count == 0 ? "\nnothing doubtful\n" : "\n";
   print(text);
+}
+
+Solved solve_furnace(const Scene& furnace, const Arguments& a) {
+  const Interruption interruption;
+  ProgressLine line(false);
+  const Stopwatch stopwatch;
+  return solve(furnace, a.options, [&](const Progress& progress) {
+    line.show(progress);
+    return !interruption.requested() && !(a.seconds > 0 && stopwatch.wall() >= a.seconds);
+  });
+}
+
+void prove(const Scene& scene, const Arguments& a) {
+  constexpr double kExitance = 100;  // B₀, lm/m²
+  const Scene furnace = furnace_scene(scene, kExitance);
+  const Solved solved = solve_furnace(furnace, a);
+  const Statistics& s = solved.statistics;
+  const FurnaceReport report = judge_furnace(furnace, solved.mesh, s, kExitance);
+  const auto share = [&](double flux) {
+    return report.emitted_flux > 0 ? 100 * flux / report.emitted_flux : 0;
+  };
+  print(fmt::format(
+      "{}: a furnace, its exitance B = {:g} lm/m² everywhere if light is neither lost nor made\n"
+      "solve       {}{} triangles on {:.6g} m², {} vertices, {:.1f} s\n"
+      "deviation   {:.2g} % root mean square over the area\n"
+      "            {:+.2g} % at worst, on {} at ({:.6g} {:.6g} {:.6g})\n"
+      "energy      {:.6g} lm emitted: absorbed {:.3f} %, escaped {:.3f} %, unshot {:.3f} %, "
+      "unaccounted for {:.3f} %\n",
+      a.scene.path.string(), kExitance,
+      s.interrupted ? "interrupted, "
+      : s.converged ? ""
+                    : "tolerance not met, ",
+      s.triangles, s.mesh_area, s.vertices, s.wall_seconds, 100 * report.rms, 100 * report.worst,
+      in_quotes(furnace.objects[report.object].name), report.place.x, report.place.y,
+      report.place.z, report.emitted_flux, share(report.absorbed_flux), share(report.escaped_flux),
+      share(report.unshot_flux), share(report.unaccounted())));
+  if (!s.converged) throw CLI::RuntimeError(kGoalNotReached);
+}
+
+void run(const Arguments& a) {
+  const ThreadLimit limit(a.threads);
+  const SceneFile file = a.scene.load();
+  a.furnace ? prove(file.scene, a) : check(file.scene, a, file.notes);
 }
 
 }  // namespace
 
 void add_check(CLI::App& program) {
-  const auto scene = std::make_shared<SceneInput>();
+  const auto a = std::make_shared<Arguments>();
   CLI::App& command =
       *program.add_subcommand("check", "What a scene says, what in it is wrong or doubtful");
-  add_scene(command, *scene);
-  command.callback([scene] { run(*scene); });
+  add_scene(command, a->scene);
+  CLI::Option* const furnace = command.add_flag(
+      "--furnace", a->furnace, "solves it as a furnace, whose light is known, and compares");
+  add_percentage(command, "--tolerance", a->options.tolerance, 0.01, 100,
+                 "root mean square error that the furnace is solved to")
+      ->needs(furnace);
+  add_number(command, "--time", "S", a->seconds, 0.0, 1e9, "stop the furnace then, 0: no bound")
+      ->needs(furnace);
+  add_number(command, "--threads", "N", a->threads, 1, 1024, "at most; changes no result");
+  command.footer(
+      "Exit code 0 whatever is doubtful; 3 where a furnace was stopped before the tolerance\n"
+      "was met.");
+  command.callback([a] { run(*a); });
 }
 
 }  // namespace isolux

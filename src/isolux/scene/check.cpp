@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
+#include "isolux/geometry/shape_description.h"
 #include "isolux/scene/spelling.h"
 
 namespace isolux {
@@ -16,66 +18,55 @@ constexpr double kUnlikelySizeRatio = 1e3;  ///< of the scene to all of it but o
 using Warnings = std::vector<std::string>;
 
 void check_materials(const Scene& scene, Warnings& warnings) {
+  Warnings unused, bright;
   std::vector<bool> used(scene.materials.size(), false);
   for (const Object& object : scene.objects) used[object.material] = true;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
     if (!used[i])
-      warnings.push_back(fmt::format("material {} is not used", in_quotes(material.name)));
+      unused.push_back(fmt::format("material {} is not used", in_quotes(material.name)));
     if (max_channel(material.reflectance) > kHighReflectance) {
-      warnings.push_back(fmt::format(
-          "material {} reflects {}: few surfaces exceed {}, and the "
-          "solution converges slowly",
+      bright.push_back(fmt::format(
+          "material {} reflects {}: few surfaces exceed {}, and the solution converges "
+          "slowly",
           in_quotes(material.name), max_channel(material.reflectance), kHighReflectance));
     }
   }
+  add_some(warnings, unused);
+  add_some(warnings, bright);
 }
 
 void check_names(const Scene& scene, Warnings& warnings) {
+  Warnings several;
   std::set<std::string_view> seen, repeated;
   for (const Object& object : scene.objects) {
     if (!seen.insert(object.name).second && repeated.insert(object.name).second) {
-      warnings.push_back(fmt::format("several objects are named {}", in_quotes(object.name)));
+      several.push_back(fmt::format("several objects are named {}", in_quotes(object.name)));
     }
   }
-}
-
-/// Whether the front of every triangle that the light is cut into has its middle inside the solid;
-/// `hair` (m) lifts it off the surface.
-bool hidden_in(const Shape& light, const Shape& solid, double hair) {
-  const auto soup = light.triangulate(std::numeric_limits<double>::infinity());
-  return soup && std::all_of(soup->triangles.begin(), soup->triangles.end(), [&](const auto& t) {
-           const Vec3 a = soup->points[t[0]], b = soup->points[t[1]], c = soup->points[t[2]];
-           return solid.contains((a + b + c) / 3 + normalized(cross(b - a, c - a)) * hair);
-         });
+  add_some(warnings, several);
 }
 
 void check_lights(const Scene& scene, double scene_size, Warnings& warnings) {
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
+  Warnings reflecting, tiny;
+  for (const Object& object : scene.objects) {
     if (!object.emits()) continue;
     const Rgb& reflectance = scene.materials[object.material].reflectance;
     if (max_channel(reflectance) > 0) {
-      warnings.push_back(
-          fmt::format("light {} also reflects {}: measured fluxes usually include "
-                      "that, so consider reflectance 0",
+      reflecting.push_back(
+          fmt::format("light {} also reflects {}: measured fluxes usually include that, so "
+                      "consider reflectance 0",
                       in_quotes(object.name), max_channel(reflectance)));
-    }
-    for (const Object& other : scene.objects) {
-      if (&other != &object && other.shape->solid() &&
-          hidden_in(*object.shape, *other.shape, 1e-6 * scene_size)) {
-        warnings.push_back(fmt::format("light {} lies inside {}: its light goes nowhere",
-                                       in_quotes(object.name), in_quotes(other.name)));
-      }
     }
     const double size = object.shape->bounds().diagonal();
     if (size < kTinyLight * scene_size) {
-      warnings.push_back(
-          fmt::format("light {} is tiny, {:.3g} m in a scene of {:.3g} m: check its "
-                      "unit",
+      tiny.push_back(
+          fmt::format("light {} is tiny, {:.3g} m in a scene of {:.3g} m: check its unit",
                       in_quotes(object.name), size, scene_size));
     }
   }
+  add_some(warnings, reflecting);
+  add_some(warnings, tiny);
 }
 
 /// An object that makes the scene a thousand times larger than the others do (at least two, as one
@@ -102,7 +93,22 @@ void check_sizes(const Scene& scene, double scene_size, Warnings& warnings) {
   }
 }
 
+/// Counts the primitives that a shape is made of.
+void count_primitives(const ShapeDescription& shape, std::map<std::string, std::size_t>& counts) {
+  if (shape.operands.empty()) ++counts[std::string(shape.kind)];
+  for (const ShapeDescription& operand : shape.operands) count_primitives(operand, counts);
+}
+
 }  // namespace
+
+void add_some(std::vector<std::string>& warnings, const std::vector<std::string>& alike) {
+  constexpr std::size_t kSome = 3;
+  const std::size_t some = std::min(kSome, alike.size());
+  warnings.insert(warnings.end(), alike.begin(), alike.begin() + std::ptrdiff_t(some));
+  if (alike.size() > some) {
+    warnings.push_back(fmt::format("and {} more like that", alike.size() - some));
+  }
+}
 
 SceneReport check_scene(const Scene& scene) {
   SceneReport report;
@@ -117,6 +123,7 @@ SceneReport check_scene(const Scene& scene) {
                               object.shape->bounds()});
     report.lights += object.emits() ? 1 : 0;
     report.flux += report.objects.back().flux;
+    count_primitives(object.shape->describe(), report.primitives);
   }
   for (const Source& source : scene.sources) {
     report.lights += 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct SceneReport {
   std::string name;
   std::string unit;  ///< of plain numbers in the file
   std::vector<ObjectReport> objects;
+  std::map<std::string, std::size_t> primitives;  ///< how many of each kind; of CSG, its operands'
   std::size_t materials = 0;
   std::size_t cameras = 0;
   std::size_t lights = 0;
@@ -29,6 +31,9 @@ struct SceneReport {
   Bounds bounds;                      ///< m
   std::vector<std::string> warnings;  ///< each one line
 };
+
+/// Adds the first three of `alike`, warnings of one kind, and how many more there are.
+void add_some(std::vector<std::string>& warnings, const std::vector<std::string>& alike);
 
 /// Sums up the scene and looks for what is allowed but probably not meant. Casts no rays.
 SceneReport check_scene(const Scene& scene);

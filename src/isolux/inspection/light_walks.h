@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "isolux/raycast/ray_caster.h"
+
+namespace isolux {
+
+/// From where the rays met an object's surface.
+struct Sight {
+  std::uint32_t front = 0, back = 0;
+};
+
+/// Of the rays that leave a light.
+struct Shine {
+  std::uint32_t rays = 0;
+  std::uint32_t lost = 0;  ///< those that meet nothing, or a side that takes no part
+};
+
+/// What random walks found that begin at the lights and at the cameras' eyes and go on, wherever
+/// they meet a surface that light leaves, in a direction with the density of diffuse light.
+struct LightWalks {
+  /// The share of rays that leave the scene, where the walk began at a light; at a camera, if there
+  /// is no light. Nothing where there is neither.
+  std::optional<double> escaping;
+  std::vector<Sight> sights;  ///< by object
+  std::vector<Shine> shines;  ///< by object, then by source; zero for those without light
+};
+
+/// Traces a fixed number of walks. `points`, by object, are on its surface (points_on_objects()).
+/// Deterministic.
+LightWalks walk_with_light(const RayCaster& rays, std::span<const std::vector<Hit>> points);
+
+}  // namespace isolux

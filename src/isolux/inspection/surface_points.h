@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "isolux/scene/scene.h"
+
+namespace isolux {
+
+/// Points of each object's surface, by object: where random lines through the boxes of its parts
+/// meet it, some 64 of them however large it is. They are not spread evenly by area; `t` is of no
+/// use. Empty where very many lines find nothing. Deterministic. Cost: linear in the objects.
+std::vector<std::vector<Hit>> points_on_objects(const Scene& scene);
+
+}  // namespace isolux
