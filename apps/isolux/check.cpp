@@ -55,10 +55,12 @@ std::string describe(const std::map<std::string, std::size_t>& primitives) {
   return text;
 }
 
-std::string describe_escape(std::optional<double> escaping) {
-  if (!escaping) return "closed or open: not known, without light or camera";
-  if (*escaping == 0) return "closed: no ray of light leaves it";
-  return fmt::format("open: {:.2g} % of the rays of light leave it", 100 * *escaping);
+std::string describe_escape(const Inspection& inspection) {
+  const auto& [rays, escaped, warnings] = inspection;
+  if (rays == 0) return "closed or open: not known, without light or camera";
+  if (escaped == 0) return fmt::format("closed: of {} rays of light, none leaves it", rays);
+  return fmt::format("open: of {} rays of light, {:.2g} % leave it", rays,
+                     100.0 * double(escaped) / double(rays));
 }
 
 void check(const Scene& scene, const Arguments& a, const std::vector<std::string>& notes) {
@@ -73,7 +75,7 @@ void check(const Scene& scene, const Arguments& a, const std::vector<std::string
       "   area m²    flux lm  object (material), bounds in m\n",
       a.scene.path.string(), report.name.empty() ? "(no name)" : report.name, report.objects.size(),
       report.materials, report.cameras, report.lights, report.flux, describe(report.primitives),
-      report.unit, describe(report.bounds), describe_escape(inspection.escaping));
+      report.unit, describe(report.bounds), describe_escape(inspection));
   const std::size_t listed = std::min(kMostListed, report.objects.size());
   for (std::size_t i = 0; i < listed; ++i) text += describe(report.objects[i]);
   if (report.objects.size() > listed) {

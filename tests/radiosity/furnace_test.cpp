@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "isolux/core/error.h"
 #include "isolux/radiosity/energy.h"
+#include "isolux/radiosity/furnace.h"
 #include "isolux/radiosity/solve.h"
+#include "isolux/sampling/lines.h"
 #include "support/scenes.h"
 
 namespace isolux {
@@ -60,11 +65,65 @@ TEST(Furnace, WhiteEverySurfaceHasTheSameRadiosity) {
 }
 
 TEST(Furnace, ManufacturedAnyReflectancesGiveTheRadiosityAskedFor) {
-  const std::array<double, 7> reflectance{0.1, 0.8, 0.5, 0.3, 0.7, 0, 0.6};
-  std::array<double, 7> exitance;
-  for (int i = 0; i < 7; ++i) exitance[i] = 20 * (1 - reflectance[i]);
-  EXPECT_LT(worst_deviation(furnace(reflectance, exitance), 20), 0.01);
+  const Scene room = furnace({0.1, 0.8, 0.5, 0.3, 0.7, 0, 0.6}, {});
+  EXPECT_LT(worst_deviation(furnace_scene(room, 20), 20), 0.01);
 }
+
+const char* const kTwoSheets = R"(
+materials: {any: {reflectance: [0.1, 0.2, 0.3]}}
+objects:
+  - {name: up, shape: {parallelogram: {corner: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0]}}, material: any, sides: front}
+  - {name: ball, shape: {sphere: {center: [0.5, 0.5, 1], radius: 0.3}}, material: any, emission: {flux: 9}}
+lights:
+  - {point: {position: [0, 0, 3], flux: 100}}
+)";
+
+TEST(FurnaceScene, ClosesTheSceneAndLetsAllSidesGlow) {
+  const Scene scene = furnace_scene(scene_of(kTwoSheets), 50);
+  ASSERT_EQ(scene.objects.size(), 4u) << "sheet, ball, the sheet's back, the box";
+  EXPECT_TRUE(scene.sources.empty());
+  EXPECT_EQ(scene.objects[2].name, "up (back)");
+  std::set<double> reflectances;
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const double reflectance = scene.material_of(i).reflectance.g;
+    EXPECT_GE(reflectance, 0.2);
+    EXPECT_LE(reflectance, 0.8);
+    EXPECT_NEAR(scene.objects[i].exitance.g, 50 * (1 - reflectance), 1e-12);
+    reflectances.insert(reflectance);
+  }
+  EXPECT_EQ(reflectances.size(), scene.objects.size());
+  const RayCaster rays(scene);
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 way = random_line({}, 1, random).direction;
+    const auto hit = rays.nearest({{0.5, 0.5, 0.1}, way});
+    ASSERT_TRUE(hit);
+    EXPECT_LT(dot(hit->normal, way), 0) << "it glows towards all who look";
+  }
+}
+
+TEST(FurnaceScene, ReportSaysWhatIsWrongAndWhere) {
+  const Scene scene = furnace_scene(scene_of(kTwoSheets), 50);
+  Options options;
+  options.tolerance = 0.05;
+  Solved solved = solve(scene, options);
+  const FurnaceReport good = judge_furnace(scene, solved.mesh, solved.statistics, 50);
+  EXPECT_LT(good.rms, 1e-3);
+  EXPECT_LT(std::abs(good.worst), 0.005);
+  // Light from nowhere, on one vertex of the ball.
+  for (Vertex& vertex : solved.mesh.vertices()) {
+    if (vertex.surface.object != 1 || vertex.triangles.empty()) continue;
+    vertex.irradiance += gray(10);
+    const FurnaceReport bad = judge_furnace(scene, solved.mesh, solved.statistics, 50);
+    EXPECT_EQ(bad.object, 1u);
+    EXPECT_EQ(bad.place, vertex.position);
+    EXPECT_NEAR(bad.worst, vertex.reflectance.g * 10 / 50, 0.005);
+    EXPECT_GT(bad.rms, good.rms);
+    break;
+  }
+}
+
+TEST(FurnaceScene, NothingCannotBeAFurnace) { EXPECT_THROW(furnace_scene(Scene{}, 1), InputError); }
 
 }  // namespace
 }  // namespace isolux

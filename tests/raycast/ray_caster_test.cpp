@@ -140,6 +140,24 @@ objects:
   }
 }
 
+TEST(RayCaster, TwoSurfacesGluedBackToBackAreBothThere) {
+  const Scene scene = scene_of(R"(
+materials: {m: {reflectance: 0.5}}
+objects:
+  - {shape: {parallelogram: {corner: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0]}}, material: m, sides: front}
+  - {shape: {parallelogram: {corner: [0, 0, 0], u: [0, 1, 0], v: [1, 0, 0]}}, material: m, sides: front}
+)");
+  const RayCaster rays(scene);
+  std::vector<SurfaceHit> hits;
+  for (const double from : {1.0, -1.0}) {
+    const Ray ray{{0.4, 0.3, from}, {0.1, 0.1, -from}};
+    EXPECT_EQ(rays.nearest(ray)->surface.object, from > 0 ? 0u : 1u) << "the one that looks here";
+    rays.all_hits(ray, {}, hits);
+    ASSERT_EQ(hits.size(), 2u);
+    EXPECT_EQ(hits[0].normal, -hits[1].normal);
+  }
+}
+
 TEST(RayCaster, SurfacesInsideOtherSolidsAreBuried) {
   const Scene scene = paper_room();
   const RayCaster rays(scene);

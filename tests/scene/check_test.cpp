@@ -1,5 +1,6 @@
 #include "isolux/scene/check.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "scene/scene_text.h"
@@ -8,8 +9,11 @@ namespace isolux {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
+using testing::Pair;
 
 SceneReport check(const std::string& text) { return check_scene(read_scene(text, "test.yaml")); }
 
@@ -54,14 +58,35 @@ TEST(Check, DoubtfulThingsAreNamed) {
   EXPECT_EQ(report.warnings.size(), 7u);
 }
 
-TEST(Check, ALightInsideASolidIsNamed) {
+TEST(Check, OfManyAlikeThreeAreNamed) {
+  std::string text = "isolux: 1\nmaterials: {m: {reflectance: 0.5}}\nobjects:\n";
+  for (int i = 0; i < 12; ++i) {
+    for (int twin = 0; twin < 2; ++twin) {
+      text += fmt::format(
+          "  - {{name: s{}, material: m, shape: {{sphere: {{center: [{}, 0, 0], radius: 1}}}}}}\n",
+          i, 3 * i);
+    }
+  }
+  const SceneReport report = check(text);
+  EXPECT_THAT(report.warnings, Contains("several objects are named 's2'"));
+  EXPECT_THAT(report.warnings, Not(Contains("several objects are named 's3'")));
+  EXPECT_THAT(report.warnings, Contains("and 9 more like that"));
+}
+
+TEST(Check, PrimitivesAreCountedWithinSolidsAndMaps) {
   const SceneReport report = check(R"(isolux: 1
-materials: {m: {reflectance: 0.5}, lamp: {reflectance: 0}}
+materials: {m: {reflectance: 0.5}}
 objects:
-  - {name: ball, shape: {sphere: {center: [0, 0, 0], radius: 1}}, material: m}
-  - {name: bulb, shape: {sphere: {center: [0, 0, 0], radius: 0.1}}, material: lamp, emission: {flux: 1}}
+  - shape:
+      difference:
+        - box: {lower: [0, 0, 0], upper: [1, 1, 1]}
+        - union:
+            - sphere: {center: [0, 0, 0], radius: 0.3}
+            - sphere: {center: [1, 0, 0], radius: 0.3}
+    material: m
+  - {shape: {box: {lower: [2, 0, 0], upper: [3, 1, 1]}}, transform: [{rotate: {axis: z, angle: 30}}], material: m}
 )");
-  EXPECT_THAT(report.warnings, Contains(HasSubstr("'bulb' lies inside 'ball'")));
+  EXPECT_THAT(report.primitives, ElementsAre(Pair("box", 2), Pair("sphere", 2)));
 }
 
 TEST(Check, DarknessIsNamed) {

@@ -124,18 +124,20 @@ class Inspector {
     const double along = length(way), lift = kThrough * along;
     if (a.face != b.face || dot(a.normal, b.normal) < 1 - 1e-12) return;
     if (!(lift > near_) || std::abs(dot(way, a.normal)) > 1e-9 * along) return;
-    std::vector<SurfaceHit> above, below;
-    rays_.all_hits({a.point + a.normal * lift, way}, {0, 1}, above);
-    rays_.all_hits({a.point - a.normal * lift, way}, {0, 1}, below);
-    for (const SurfaceHit& hit : above) {
-      const bool goes_on = std::any_of(below.begin(), below.end(), [&](const SurfaceHit& other) {
-        return other.surface == hit.surface && std::abs(other.t - hit.t) < 2 * kThrough;
-      });
-      if (!goes_on || hit.surface.object == i) continue;
+    std::array<std::vector<SurfaceHit>, 3> hits;  // under, in and over the face
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      const Vec3 from = a.point + a.normal * (lift * (double(k) - 1));
+      rays_.all_hits({from, way}, {0, 1}, hits[k]);
+    }
+    for (const SurfaceHit& hit : hits[1]) {
+      const auto goes_on = [&](const std::vector<SurfaceHit>& beside) {
+        return std::any_of(beside.begin(), beside.end(), [&](const SurfaceHit& other) {
+          return other.surface == hit.surface && std::abs(other.t - hit.t) < 2 * kThrough;
+        });
+      };
+      if (hit.surface.object == i || !goes_on(hits[0]) || !goes_on(hits[2])) continue;
       // Where there is a hole in the face, or its outline bends inwards, nothing is crossed.
-      if (lies_on({0, a.point + way * hit.t, a.normal, a.face}, i)) {
-        crossing.push_back(hit.surface.object);
-      }
+      if (lies_on({0, hit.point, a.normal, a.face}, i)) crossing.push_back(hit.surface.object);
     }
   }
 

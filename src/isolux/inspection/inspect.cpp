@@ -98,7 +98,8 @@ Inspection inspect_scene(const RayCaster& rays) {
   const std::vector<std::vector<Hit>> points = points_on_objects(scene);
   const LightWalks walks = walk_with_light(rays, points);
   Inspection inspection;
-  inspection.escaping = walks.escaping;
+  inspection.rays = walks.rays;
+  inspection.escaped = walks.escaped;
   warn_of_areas(scene, points, inspection.warnings);
   warn_of_backs(scene, walks.sights, inspection.warnings);
   warn_of_lost_light(scene, walks.shines, inspection.warnings);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,9 +10,9 @@ namespace isolux {
 
 /// What rays find out about a scene.
 struct Inspection {
-  /// The share of rays that leave the scene, of those that light takes from lights (or eyes)
-  /// onwards: 0 where it is closed. Nothing where there is neither light nor camera.
-  std::optional<double> escaping;
+  /// That light takes from lights (eyes, where there are none) onwards; 0: there are neither.
+  std::uint64_t rays = 0;
+  std::uint64_t escaped = 0;  ///< of these, how many leave the scene: none where it is closed
   std::vector<std::string> warnings;  ///< each one line
 };
 

@@ -118,11 +118,10 @@ std::vector<Start> cameras_of(const Scene& scene) {
   return starts;
 }
 
-/// Walks from all starts in turn, each with its own random numbers. Returns the share of rays that
-/// left the scene.
-std::optional<double> walk_all(const Walker& walker, std::span<const Start> starts,
-                               std::uint64_t seed, LightWalks& found) {
-  if (starts.empty()) return std::nullopt;
+/// Walks from all starts in turn, each with its own random numbers.
+void walk_all(const Walker& walker, std::span<const Start> starts, std::uint64_t seed,
+              LightWalks& found) {
+  if (starts.empty()) return;
   std::vector<Trail> trails(std::max(kWalks, kLeastAtOne * starts.size()));
   parallel_for(trails.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -130,11 +129,10 @@ std::optional<double> walk_all(const Walker& walker, std::span<const Start> star
       trails[i] = walker.walk(starts[i % starts.size()], random);
     }
   });
-  double all = 0, escaped = 0;
   for (std::size_t i = 0; i < trails.size(); ++i) {
     const Trail& trail = trails[i];
-    all += trail.rays;
-    escaped += trail.escaped;
+    found.rays += trail.rays;
+    found.escaped += trail.escaped;
     for (const auto& [object, back] : trail.meetings) {
       Sight& sight = found.sights[object];
       ++(back ? sight.back : sight.front);
@@ -146,7 +144,6 @@ std::optional<double> walk_all(const Walker& walker, std::span<const Start> star
     shine.rays += 1;
     shine.lost += trail.first_lost;
   }
-  return all > 0 ? std::optional(escaped / all) : std::nullopt;
 }
 
 }  // namespace
@@ -157,9 +154,10 @@ LightWalks walk_with_light(const RayCaster& rays, std::span<const std::vector<Hi
   found.sights.resize(scene.objects.size());
   found.shines.resize(scene.objects.size() + scene.sources.size());
   const Walker walker(rays, points);
-  found.escaping = walk_all(walker, lights_of(scene), 2, found);
-  const std::optional<double> seen = walk_all(walker, cameras_of(scene), 3, found);
-  if (!found.escaping) found.escaping = seen;
+  walk_all(walker, cameras_of(scene), 2, found);
+  // Light is asked, not eyes, for how much of it leaves; a camera may stand outside a room.
+  if (scene.has_light()) found.rays = found.escaped = 0;
+  walk_all(walker, lights_of(scene), 3, found);
   return found;
 }
 

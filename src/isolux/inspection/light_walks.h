@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,9 +22,8 @@ struct Shine {
 /// What random walks found that begin at the lights and at the cameras' eyes and go on, wherever
 /// they meet a surface that light leaves, in a direction with the density of diffuse light.
 struct LightWalks {
-  /// The share of rays that leave the scene, where the walk began at a light; at a camera, if there
-  /// is no light. Nothing where there is neither.
-  std::optional<double> escaping;
+  std::uint64_t rays = 0;     ///< of the walks that begin at lights; at cameras, where none shines
+  std::uint64_t escaped = 0;  ///< of these, how many leave the scene
   std::vector<Sight> sights;  ///< by object
   std::vector<Shine> shines;  ///< by object, then by source; zero for those without light
 };
