@@ -142,16 +142,16 @@ void add_check(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("check", "What a scene says, what in it is wrong or doubtful");
   add_scene(command, a->scene);
-  CLI::Option* const furnace = command.add_flag(
-      "--furnace", a->furnace, "solves it as a furnace, whose light is known, and compares");
+  CLI::Option* const furnace =
+      command.add_flag("--furnace", a->furnace, "proves it by a solve whose light is known");
   add_percentage(command, "--tolerance", a->options.tolerance, 0.01, 100,
-                 "root mean square error that the furnace is solved to")
+                 "of the furnace, root mean square error")
       ->needs(furnace);
   add_number(command, "--time", "S", a->seconds, 0.0, 1e9, "stop the furnace then, 0: no bound")
       ->needs(furnace);
   add_number(command, "--threads", "N", a->threads, 1, 1024, "at most; changes no result");
   command.footer(
-      "Exit code 0 whatever is doubtful; 3 where a furnace was stopped before the tolerance\n"
+      "Exit code 0, whatever is doubtful; 3 where a furnace ended before its tolerance\n"
       "was met.");
   command.callback([a] { run(*a); });
 }

@@ -356,6 +356,54 @@ class Terminal(ProgramTest):
         self.assertEqual(result.stderr + result.stdout, "")
 
 
+class Check(ProgramTest):
+    BOXES = """isolux: 1
+materials: {grey: {reflectance: 0.5}}
+objects:
+  - {name: a, shape: {box: {lower: [0, 0, 0], upper: [1, 1, 1]}}, material: grey}
+  - {name: b, shape: {box: {lower: [0.5, 0.5, 0.5], upper: [2, 2, 2]}}, material: grey}
+"""
+
+    def test_says_what_it_read_and_whether_it_is_closed(self):
+        text = self.succeed("check", ROOM).stdout
+        self.assertIn("objects 4, materials 2, cameras 2, lights 1 with 500 lm", text)
+        self.assertIn("primitives: box 1, cylinder 1, parallelogram 1, sphere 1\n", text)
+        self.assertRegex(text, r"\nclosed: of \d{5} rays of light, none leaves it\n")
+        self.assertIn("\nnothing doubtful\n", text)
+
+    def test_what_is_doubtful_is_no_refusal(self):
+        text = self.succeed("check", self.write("boxes.yaml", self.BOXES)).stdout
+        self.assertIn("closed or open: not known", text)
+        self.assertIn("\nwarning: 'a' and 'b' run through each other\n", text)
+
+    def test_long_lists_of_objects_are_cut(self):
+        balls = "".join(
+            f"  - {{shape: {{sphere: {{center: [{3 * i}, 9, 0], radius: 1}}}}, material: grey}}\n"
+            for i in range(200))
+        text = self.succeed("check", self.write("balls.yaml", self.BOXES + balls)).stdout
+        self.assertIn("and 102 more\n", text)
+        self.assertLess(text.count("\n"), 230)
+
+    def test_a_furnace_has_the_same_light_everywhere(self):
+        text = self.succeed("check", "--furnace", ROOM, "--tolerance", "5").stdout
+        rms, worst = (float(re.search(pattern, text)[1]) for pattern in
+                      [r"\n *deviation +(\S+) %", r"\n +([+-]\S+) % at worst, on '\S+' at \("])
+        self.assertLess(rms, 0.5)
+        self.assertLess(abs(worst), 3)
+        self.assertIn("escaped 0.000 %", text)
+        self.assertEqual(self.listing(), {})
+
+    def test_a_furnace_that_is_stopped_says_so(self):
+        result = self.run_program("check", "--furnace", self.write("boxes.yaml", self.BOXES),
+                                  "--tolerance", "0.01", "--time", "0.01")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("interrupted", result.stdout)
+
+    def test_options_of_the_furnace_need_it(self):
+        for option in ["--tolerance", "--time"]:
+            self.fail_with(".*--furnace", "check", ROOM, option, "1")
+
+
 class Tolerance(ProgramTest):
     """The default method: no parameter but how good the solution shall be."""
 
