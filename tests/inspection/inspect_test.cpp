@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <chrono>
+
 #include "isolux/core/parallel.h"
 #include "isolux/formats/scene_file.h"
 #include "isolux/inspection/surface_points.h"
 #include "support/scenes.h"
+#include "support/tessellated.h"
 
 namespace isolux {
 namespace {
@@ -195,6 +198,29 @@ TEST(Crossing, NearMisses) {
           sheet("through", "2, 1.6, 0.5", "0, 0.8, 0", "0, 0, 1"))
           .warnings,
       IsEmpty());
+}
+
+TEST(Crossing, MeshesOfManyTrianglesAreAskedByRays) {
+  const std::string balls = object("a", "sphere: {center: [1, 1, 1], radius: 0.4}") +
+                            object("b", "sphere: {center: [1.5, 1, 1], radius: 0.4}") +
+                            object("c", "sphere: {center: [1, 3, 1], radius: 0.4}") +
+                            object("d", "sphere: {center: [1, 3, 1], radius: 0.2}") +
+                            object("e", "sphere: {center: [3, 1, 0.4], radius: 0.4}");
+  const Scene scene = tessellated(scene_of(kRoom + balls), 64);
+  EXPECT_THAT(inspect_scene(RayCaster(scene)).warnings,
+              ElementsAre("'a' and 'b' run through each other",
+                          "'d' lies inside 'c': light never gets there"));
+}
+
+TEST(Inspection, LargeMeshesTakeSeconds) {
+  const Scene scene = tessellated(
+      scene_of(kRoom + object("a", "sphere: {center: [1, 1, 1], radius: 0.4}") +
+               object("b", "sphere: {center: [1.5, 1, 1], radius: 0.4}") +
+               object("c", "sphere: {center: [3, 3, 1], radius: 0.4}", ", emission: {flux: 1}")),
+      300);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(inspect_scene(RayCaster(scene)).warnings.size(), 1u) << "a and b";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 TEST(Buried, WhatLiesInsideASolid) {

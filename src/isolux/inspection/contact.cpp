@@ -67,13 +67,13 @@ class Inspector {
   Depth depth(Index i, Index j) const {
     const double margin = kDeep * std::min(objects_[i].shape->bounds().diagonal(),
                                            objects_[j].shape->bounds().diagonal());
-    std::size_t inside = 0, outside = 0;
+    std::size_t within = 0, outside = 0;
     for (const Hit& point : points_[i]) {
-      const int around = contained_around(*objects_[j].shape, point.point, margin);
-      inside += around == 6;
+      const int around = inside_around(j, point.point, margin);
+      within += around == 6;
       outside += around == 0;
     }
-    if (inside == 0) return Depth::outside;
+    if (within == 0) return Depth::outside;
     return outside == 0 ? Depth::inside : Depth::partly;
   }
 
@@ -90,14 +90,44 @@ class Inspector {
     }
   }
 
-  /// Whether i's own surface is at the point too, facing alike.
+  /// Whether i's own surface is at the point too, facing alike. Of shapes with many parts, only
+  /// what no other object covers there.
   bool lies_on(const Hit& at, Index i) const {
-    thread_local Hits hits;
-    hits.clear();
-    objects_[i].shape->intersect({at.point, at.normal}, hits);
-    return std::any_of(hits.begin(), hits.end(), [&](const Hit& hit) {
-      return std::abs(hit.t) <= near_ && dot(hit.normal, at.normal) > kAlike;
+    const auto alike = [&](const auto& hit) { return dot(hit.normal, at.normal) > kAlike; };
+    if (few_parts(i)) {
+      thread_local Hits hits;
+      hits.clear();
+      objects_[i].shape->intersect({at.point, at.normal}, hits);
+      return std::any_of(hits.begin(), hits.end(),
+                         [&](const Hit& hit) { return std::abs(hit.t) <= near_ && alike(hit); });
+    }
+    thread_local std::vector<SurfaceHit> hits;
+    rays_.all_hits({at.point + at.normal * near_, -at.normal}, {0, 2 * near_}, hits);
+    return std::any_of(hits.begin(), hits.end(), [&](const SurfaceHit& hit) {
+      return hit.surface.object == i && alike(hit);
     });
+  }
+
+  /// Whether the point is inside the solid i. Of shapes with many parts, whether rays in opposite
+  /// directions both begin inside.
+  bool inside(Index i, const Vec3& point) const {
+    const Shape& shape = *objects_[i].shape;
+    if (few_parts(i)) return shape.contains(point);
+    thread_local std::vector<SurfaceHit> hits;
+    const Vec3 direction = normalized({0.31, 0.27, 0.91});  // any will do
+    for (const Vec3& way : {direction, -direction}) {
+      rays_.all_hits({point, way}, {}, hits);
+      const auto first = std::find_if(
+          hits.begin(), hits.end(), [&](const SurfaceHit& hit) { return hit.surface.object == i; });
+      if (first == hits.end() ? !shape.unbounded() : dot(first->normal, way) < 0) return false;
+    }
+    return true;
+  }
+
+  /// Whether to ask the shape itself, which looks at all its parts.
+  bool few_parts(Index i) const {
+    constexpr std::size_t kFew = 64;
+    return objects_[i].shape->part_count() <= kFew;
   }
 
   /// The solids that a ray from the point leaves before it enters them.
@@ -114,7 +144,7 @@ class Inspector {
       if (objects_[j].shape->solid() && dot(hit.normal, direction) > 0) solids.push_back(j);
     }
     for (const Index j : endless_) {
-      if (j != i && objects_[j].shape->contains(at.point)) solids.push_back(j);
+      if (j != i && inside(j, at.point)) solids.push_back(j);
     }
   }
 
@@ -141,14 +171,14 @@ class Inspector {
     }
   }
 
-  /// Around the point in all six directions, how many places are inside the solid.
-  static int contained_around(const Shape& solid, const Vec3& point, double distance) {
-    int inside = 0;
+  /// Around the point in all six directions, how many places are inside the solid i.
+  int inside_around(Index i, const Vec3& point, double distance) const {
+    int count = 0;
     for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      inside += solid.contains(point + axis * distance);
-      inside += solid.contains(point - axis * distance);
+      count += inside(i, point + axis * distance);
+      count += inside(i, point - axis * distance);
     }
-    return inside;
+    return count;
   }
 
   const RayCaster& rays_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "isolux/inspection/contact.h"
 #include "isolux/inspection/light_walks.h"
 #include "isolux/inspection/surface_points.h"
@@ -54,13 +56,17 @@ void warn_of_backs(const Scene& scene, std::span<const Sight> sights, Warnings& 
   add_some(warnings, inverted);
 }
 
-void warn_of_lost_light(const Scene& scene, std::span<const Shine> shines, Warnings& warnings) {
+/// Lights that are `buried` are named elsewhere.
+void warn_of_lost_light(const Scene& scene, std::span<const Shine> shines,
+                        std::span<const ObjectPair> buried, Warnings& warnings) {
   Warnings lost;
   for (Index i = 0; i < shines.size(); ++i) {
     const bool source = i >= scene.objects.size();
     const std::string& name =
         source ? scene.sources[i - scene.objects.size()].name : scene.objects[i].name;
     if (shines[i].rays < kEnough || shines[i].lost < shines[i].rays) continue;
+    if (std::any_of(buried.begin(), buried.end(), [&](const auto& p) { return p.first == i; }))
+      continue;
     lost.push_back(
         fmt::format("light {} shines at nothing: all its rays leave the scene or end on black "
                     "backs",
@@ -102,8 +108,9 @@ Inspection inspect_scene(const RayCaster& rays) {
   inspection.escaped = walks.escaped;
   warn_of_areas(scene, points, inspection.warnings);
   warn_of_backs(scene, walks.sights, inspection.warnings);
-  warn_of_lost_light(scene, walks.shines, inspection.warnings);
-  warn_of_contacts(scene, find_contacts(rays, points), inspection.warnings);
+  const Contacts contacts = find_contacts(rays, points);
+  warn_of_lost_light(scene, walks.shines, contacts.buried, inspection.warnings);
+  warn_of_contacts(scene, contacts, inspection.warnings);
   return inspection;
 }
 

@@ -73,7 +73,6 @@ class Walker {
     const std::vector<Hit>& points = points_[start.index];
     if (points.empty()) return std::nullopt;
     const Hit& from = points[random.below(points.size())];
-    if (rays_.buried(from.point, from.normal)) return std::nullopt;
     return Ray{from.point + from.normal * rays_.epsilon(), diffuse_direction(from.normal, random)};
   }
 
