@@ -92,6 +92,21 @@ void check(const Scene& scene, const Arguments& a, const std::vector<std::string
   print(text);
 }
 
+std::string describe(const FurnaceReport& report, const Scene& furnace) {
+  const auto share = [&](double flux) {
+    return report.emitted_flux > 0 ? 100 * flux / report.emitted_flux : 0;
+  };
+  return fmt::format(
+      "deviation   {:.2g} % root mean square over the area\n"
+      "            {:+.2g} % at worst, on {} at ({:.6g} {:.6g} {:.6g})\n"
+      "energy      {:.6g} lm emitted: absorbed {:.3f} %, escaped {:.3f} %, unshot {:.3f} %, "
+      "unaccounted for {:.3f} %\n",
+      100 * report.rms, 100 * report.worst, in_quotes(furnace.objects[report.object].name),
+      report.place.x, report.place.y, report.place.z, report.emitted_flux,
+      share(report.absorbed_flux), share(report.escaped_flux), share(report.unshot_flux),
+      share(report.unaccounted()));
+}
+
 Solved solve_furnace(const Scene& furnace, const Arguments& a) {
   const Interruption interruption;
   ProgressLine line(false);
@@ -107,25 +122,18 @@ void prove(const Scene& scene, const Arguments& a) {
   const Scene furnace = furnace_scene(scene, kExitance);
   const Solved solved = solve_furnace(furnace, a);
   const Statistics& s = solved.statistics;
-  const FurnaceReport report = judge_furnace(furnace, solved.mesh, s, kExitance);
-  const auto share = [&](double flux) {
-    return report.emitted_flux > 0 ? 100 * flux / report.emitted_flux : 0;
-  };
-  print(fmt::format(
+  std::string text = fmt::format(
       "{}: a furnace, its exitance B = {:g} lm/m² everywhere if light is neither lost nor made\n"
-      "solve       {}{} triangles on {:.6g} m², {} vertices, {:.1f} s\n"
-      "deviation   {:.2g} % root mean square over the area\n"
-      "            {:+.2g} % at worst, on {} at ({:.6g} {:.6g} {:.6g})\n"
-      "energy      {:.6g} lm emitted: absorbed {:.3f} %, escaped {:.3f} %, unshot {:.3f} %, "
-      "unaccounted for {:.3f} %\n",
+      "solve       {}{} triangles on {:.6g} m², {} vertices, {:.1f} s\n",
       a.scene.path.string(), kExitance,
       s.interrupted ? "interrupted, "
       : s.converged ? ""
                     : "tolerance not met, ",
-      s.triangles, s.mesh_area, s.vertices, s.wall_seconds, 100 * report.rms, 100 * report.worst,
-      in_quotes(furnace.objects[report.object].name), report.place.x, report.place.y,
-      report.place.z, report.emitted_flux, share(report.absorbed_flux), share(report.escaped_flux),
-      share(report.unshot_flux), share(report.unaccounted())));
+      s.triangles, s.mesh_area, s.vertices, s.wall_seconds);
+  // Until there is an estimate of the error, surfaces are not lit yet.
+  if (s.converged || s.error > 0)
+    text += describe(judge_furnace(furnace, solved.mesh, s, kExitance), furnace);
+  print(text);
   if (!s.converged) throw CLI::RuntimeError(kGoalNotReached);
 }
 

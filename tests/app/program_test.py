@@ -398,6 +398,7 @@ objects:
                                   "--tolerance", "0.01", "--time", "0.01")
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("interrupted", result.stdout)
+        self.assertNotIn("deviation", result.stdout, "there was no light yet")
 
     def test_options_of_the_furnace_need_it(self):
         for option in ["--tolerance", "--time"]:
