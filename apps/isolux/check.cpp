@@ -59,7 +59,7 @@ std::string describe_escape(const Inspection& inspection) {
   const auto& [rays, escaped, warnings] = inspection;
   if (rays == 0) return "closed or open: not known, without light or camera";
   if (escaped == 0) return fmt::format("closed: of {} rays of light, none leaves it", rays);
-  return fmt::format("open: of {} rays of light, {:.2g} % leave it", rays,
+  return fmt::format("open: of {} rays of light, {:.3g} % leave it", rays,
                      100.0 * double(escaped) / double(rays));
 }
 
@@ -97,8 +97,8 @@ std::string describe(const FurnaceReport& report, const Scene& furnace) {
     return report.emitted_flux > 0 ? 100 * flux / report.emitted_flux : 0;
   };
   return fmt::format(
-      "deviation   {:.2g} % root mean square over the area\n"
-      "            {:+.2g} % at worst, on {} at ({:.6g} {:.6g} {:.6g})\n"
+      "deviation   {:.3g} % root mean square over the area\n"
+      "            {:+.3g} % at worst, on {} at ({:.6g} {:.6g} {:.6g})\n"
       "energy      {:.6g} lm emitted: absorbed {:.3f} %, escaped {:.3f} %, unshot {:.3f} %, "
       "unaccounted for {:.3f} %\n",
       100 * report.rms, 100 * report.worst, in_quotes(furnace.objects[report.object].name),
