@@ -268,7 +268,8 @@ class Conversion(ProgramTest):
         self.assertEqual(lines[0], lines[1])
 
     def test_writing_twice_changes_nothing(self):
-        for scene in sorted((PROJECT / "examples").rglob("*.yaml")):
+        scenes = sorted((PROJECT / "examples").rglob("*.yaml"))
+        for scene in (path for path in scenes if not path.name.endswith(".lights.yaml")):
             with self.subTest(scene=scene.name):
                 self.succeed("convert", scene, "-o", "once.yaml")
                 self.succeed("convert", "once.yaml", "-o", "twice.yaml")

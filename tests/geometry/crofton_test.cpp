@@ -9,6 +9,8 @@
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/csg.h"
 #include "isolux/geometry/cylinder.h"
+#include "isolux/geometry/prism.h"
+#include "isolux/geometry/revolution.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
 
@@ -26,6 +28,12 @@ struct Estimate {
   double error() const { return std::sqrt((sum_of_squares / count - mean() * mean()) / count); }
 };
 
+double length_inside(const Hits& hits) {
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < hits.size(); k += 2) sum += hits[k + 1].t - hits[k].t;
+  return sum;
+}
+
 void expect_measures(const Shape& shape, double area, std::optional<double> volume) {
   Random random(42);
   const Bounds box = shape.bounds();
@@ -34,15 +42,24 @@ void expect_measures(const Shape& shape, double area, std::optional<double> volu
   for (int i = 0; i < 100'000; ++i) {
     const Hits hits = hits_of(shape, random_line(random, box.center(), radius, radius));
     hit_count.add(static_cast<double>(hits.size()));
-    double sum = 0;
-    for (std::size_t k = 0; k + 1 < hits.size(); k += 2) sum += hits[k + 1].t - hits[k].t;
-    inside.add(sum);
+    inside.add(length_inside(hits));
   }
   // Four standard errors: wrong once in 16 000 seeds, and this is one seed.
   EXPECT_NEAR(hit_count.mean(), 2 * area / sphere_area, 4 * hit_count.error());
   if (volume) {
     EXPECT_NEAR(inside.mean(), 4 * *volume / sphere_area, 4 * inside.error());
   }
+}
+
+void expect_volume(const Shape& shape, double volume) {
+  Random random(42);
+  const Bounds box = shape.bounds();
+  const double radius = 0.5 * box.diagonal(), sphere_area = 4 * pi * radius * radius;
+  Estimate inside;
+  for (int i = 0; i < 100'000; ++i) {
+    inside.add(length_inside(hits_of(shape, random_line(random, box.center(), radius, radius))));
+  }
+  EXPECT_NEAR(inside.mean(), 4 * volume / sphere_area, 4 * inside.error());
 }
 
 TEST(CroftonTest, ShapesWithAFormulaForTheirArea) {
@@ -78,6 +95,40 @@ TEST(CroftonTest, DrilledCube) {
   const auto drill = std::make_shared<Cylinder>(Vec3{0.5, 0.5, -1}, Vec3{0.5, 0.5, 2}, r, true);
   expect_measures(Csg(CsgOperation::subtract, cube, drill), 6 - 2 * pi * r * r + 2 * pi * r,
                   1 - pi * r * r);
+}
+
+TEST(CroftonTest, PrismsKeepTheirVolumeWhenTheyTurn) {
+  // An L of area 4 with a triangular hole of 1/2. Scaled by k at the top, (1 + k + k²) / 3 of it.
+  const std::vector<Vec3> l = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+  const std::vector<std::vector<Vec3>> hole = {{{0.1, 0.5, 0}, {0.9, 0.5, 0}, {0.5, 1.75, 0}}};
+  const double area = 4 - 0.5, height = 2;
+  for (const double twist : {0.0, 90.0, -500.0}) {
+    const Prism prism(l, hole, {0.3, 0, height}, PrismTop{{1, 1, 0}, {0.5, 0.5}, twist});
+    ASSERT_EQ(prism.area().has_value(), twist == 0);
+    expect_volume(prism, area * height * (1 + 0.5 + 0.25) / 3);
+  }
+  const Prism ridge(l, hole, {0, 0, height}, PrismTop{{1, 1, 0}, {1, 0}});
+  expect_volume(ridge, area * height / 2);
+}
+
+TEST(CroftonTest, RevolutionsFollowPappus) {
+  // A triangle of area 1/2, its centroid at r = 4/3.
+  const std::vector<ProfilePoint> triangle = {{1, 0}, {2, 0}, {1, 1}};
+  const double whole = 2 * pi * (4.0 / 3) * 0.5;
+  const double sides = 2 * pi * (1.5 + 1.5 * std::sqrt(2.0) + 1);
+  expect_measures(Revolution({}, {1, 1, 1}, triangle), sides, whole);
+  expect_measures(Revolution({}, {1, 1, 1}, triangle, {.angle = 90}), sides / 4 + 1, whole / 4);
+}
+
+TEST(CroftonTest, ACurveThroughPointsOfACircleIsNearlyASphere) {
+  std::vector<ProfilePoint> half;
+  for (int i = 0; i <= 16; ++i) {
+    const double angle = pi * (i / 16.0 - 0.5);
+    half.push_back({i % 16 == 0 ? 0 : std::cos(angle), std::sin(angle)});
+  }
+  const Revolution ball({}, {0, 0, 1}, half, {.smooth = true});
+  EXPECT_NEAR(*ball.area(), 4 * pi, 1e-3);
+  expect_measures(ball, *ball.area(), 4 * pi / 3);
 }
 
 }  // namespace

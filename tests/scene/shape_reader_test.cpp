@@ -78,6 +78,27 @@ TEST(ShapeReader, EachShapeIsTheOneThatWasMeant) {
        false,
        {0, 0, 0},
        {2, 2, 0}},
+      {"prism: {points: [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]], along: [0, 0, 3]}",
+       32,
+       true,
+       {0, 0, 0},
+       {2, 2, 3}},
+      {"prism: {points: [[0, 0, 0], [6, 0, 0], [6, 6, 0], [0, 6, 0]], along: [0, 0, 4], "
+       "center: [3, 3, 0], scale: 0}",
+       96,
+       true,
+       {0, 0, 0},
+       {6, 6, 4}},
+      {"revolution: {center: [0, 0, 1], axis: z, profile: [[0, 0], [3, 0], [0, 4]]}",
+       24 * kPi,
+       true,
+       {-3, -3, 1},
+       {3, 3, 5}},
+      {"revolution: {center: [0, 0, 0], axis: x, profile: [[1, 0], [1, 2]], open: true}",
+       4 * kPi,
+       false,
+       {0, -1, -1},
+       {2, 1, 1}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.text);

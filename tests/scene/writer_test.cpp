@@ -66,6 +66,7 @@ TEST(Writer, EveryExampleIsReadBackAsItWas) {
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(ISOLUX_SOURCE_DIR "/examples")) {
     if (entry.path().extension() != ".yaml") continue;
+    if (entry.path().stem().extension() == ".lights") continue;  // beside a model of another format
     ++examples;
     const Scene scene = load_scene(entry.path());
     const std::string text = write_scene(scene);

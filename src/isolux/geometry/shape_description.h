@@ -16,10 +16,11 @@ namespace isolux {
 struct ShapeDescription {
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
   using Outlines = std::vector<std::vector<Vec3>>;
+  using Rows = std::vector<std::vector<double>>;
   struct Field;
   using Record = std::vector<Field>;  ///< a map within a list
   using Value = std::variant<bool, double, Vec3, std::vector<double>, std::vector<Vec3>, Triangles,
-                             Outlines, std::vector<Record>>;
+                             Outlines, Rows, std::vector<Record>>;
   struct Field {
     std::string_view key;
     Value value;

@@ -8,6 +8,7 @@
 #include "isolux/core/file.h"
 #include "isolux/scene/length.h"
 #include "isolux/scene/light_reader.h"
+#include "isolux/scene/part_reader.h"
 #include "isolux/scene/shape_reader.h"
 #include "isolux/scene/spelling.h"
 #include "isolux/scene/value.h"
@@ -16,7 +17,6 @@ namespace isolux {
 namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{64} << 20;  ///< bytes
-constexpr int kLargestPicture = 32768;                       ///< pixels a side
 
 using MaterialIndex = std::map<std::string, std::uint32_t, std::less<>>;
 
@@ -31,15 +31,7 @@ void check_version(const Value& root) {
 
 Material read_material(const Value& name, const Value& value) {
   const Fields fields(value, {"reflectance"});
-  const Value reflectance = fields.require("reflectance");
-  const Rgb color = reflectance.color();
-  if (!(max_channel(color) < 1)) {
-    reflectance.fail(
-        fmt::format("'reflectance' must be less than 1, not {}: give the share of the "
-                    "light that is reflected, such as 0.7",
-                    max_channel(color)));
-  }
-  return {name.text(), color};
+  return {name.text(), read_reflectance(fields.require("reflectance"))};
 }
 
 std::uint32_t find_material(const Value& value, const MaterialIndex& materials) {
@@ -74,37 +66,6 @@ Object read_object(const Value& value, std::size_t number, const MaterialIndex& 
     object.exitance = read_emission(*emission, *object.shape);
   }
   return object;
-}
-
-Camera read_camera(const Value& name, const Value& value) {
-  const Fields fields(value, {"eye", "look_at", "up", "fov", "size"});
-  Camera camera;
-  camera.name = name.text();
-  camera.eye = fields.require("eye").point();
-  const Value look_at = fields.require("look_at");
-  camera.look_at = look_at.point();
-  const Vec3 view = camera.look_at - camera.eye;
-  if (!(length(view) > 1e-9)) look_at.fail("'look_at' must differ from 'eye'");
-  const std::optional<Value> up = fields.find("up");
-  if (up) camera.up = up->direction();
-  if (length(cross(normalized(view), camera.up)) < 1e-6) {
-    (up ? *up : look_at)
-        .fail(
-            "'up' must not run along the view: for one straight up or down, use "
-            "'up: y'");
-  }
-  if (const auto fov = fields.find("fov")) {
-    camera.fov = fov->number();
-    if (!(camera.fov > 0 && camera.fov < 180)) {
-      fov->fail("'fov' must lie between 0 and 180 degrees, such as 50");
-    }
-  }
-  if (const auto size = fields.find("size")) {
-    const std::vector<Value> sides = size->items(2, 2);
-    camera.width = sides[0].integer(1, kLargestPicture);
-    camera.height = sides[1].integer(1, kLargestPicture);
-  }
-  return camera;
 }
 
 Scene read_document(const YamlDocument& document) {

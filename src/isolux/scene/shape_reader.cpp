@@ -13,50 +13,23 @@
 #include "isolux/geometry/frustum.h"
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/parallelogram.h"
-#include "isolux/geometry/polygon.h"
 #include "isolux/geometry/reversed.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
-#include "isolux/geometry/triangle_mesh.h"
+#include "isolux/scene/make_shape.h"
+#include "isolux/scene/shapes_from_lists.h"
 #include "isolux/scene/spelling.h"
 #include "isolux/scene/transform_reader.h"
 
 namespace isolux {
 namespace {
 
-using ShapePtr = std::shared_ptr<const Shape>;
-
 constexpr int kDeepestNesting = 100;  ///< of shapes within shapes
-
-[[noreturn]] void refuse(const Value& place, const InputError& error) {
-  place.fail(fmt::format("{} can't be made: {}", in_quotes(place.label()), error.what()));
-}
-
-/// Makes a shape; what its constructor has against the numbers is reported at `place`.
-template <typename T, typename... Numbers>
-ShapePtr make(const Value& place, Numbers&&... numbers) {
-  try {
-    return std::make_shared<T>(std::forward<Numbers>(numbers)...);
-  } catch (const InputError& error) {
-    refuse(place, error);
-  }
-}
-
-bool read_flag(const Fields& fields, std::string_view key) {
-  const std::optional<Value> value = fields.find(key);
-  return value && value->flag();
-}
-
-std::vector<Vec3> read_points(const Value& list) {
-  std::vector<Vec3> points;
-  for (const Value& point : list.items(3)) points.push_back(point.point());
-  return points;
-}
 
 ShapePtr read_sphere(const Value& value) {
   const Fields fields(value, {"center", "radius"});
-  return make<Sphere>(value, fields.require("center").point(),
-                      fields.require("radius").positive_length());
+  return make_shape<Sphere>(value, fields.require("center").point(),
+                            fields.require("radius").positive_length());
 }
 
 struct Axis {
@@ -73,8 +46,8 @@ Axis read_axis(const Fields& fields) {
 ShapePtr read_cylinder(const Value& value) {
   const Fields fields(value, {"from", "to", "radius", "open"});
   const auto [from, to] = read_axis(fields);
-  return make<Cylinder>(value, from, to, fields.require("radius").positive_length(),
-                        !read_flag(fields, "open"));
+  return make_shape<Cylinder>(value, from, to, fields.require("radius").positive_length(),
+                              !read_flag(fields, "open"));
 }
 
 ShapePtr read_cone(const Value& value) {
@@ -86,22 +59,23 @@ ShapePtr read_cone(const Value& value) {
   if (!(first >= 0 && second >= 0 && first + second > 0)) {
     list.fail("'radii' must not be negative, nor both 0: give the radius at each end");
   }
-  return make<Frustum>(value, from, to, first, second, !read_flag(fields, "open"));
+  return make_shape<Frustum>(value, from, to, first, second, !read_flag(fields, "open"));
 }
 
 ShapePtr read_disk(const Value& value) {
   const Fields fields(value, {"center", "normal", "radius", "inner_radius"});
   const std::optional<Value> inner = fields.find("inner_radius");
-  return make<Disk>(value, fields.require("center").point(), fields.require("normal").direction(),
-                    fields.require("radius").positive_length(),
-                    inner ? inner->positive_length() : 0.0);
+  return make_shape<Disk>(
+      value, fields.require("center").point(), fields.require("normal").direction(),
+      fields.require("radius").positive_length(), inner ? inner->positive_length() : 0.0);
 }
 
 ShapePtr read_torus(const Value& value) {
   const Fields fields(value, {"center", "axis", "major_radius", "minor_radius"});
-  return make<Torus>(value, fields.require("center").point(), fields.require("axis").direction(),
-                     fields.require("major_radius").positive_length(),
-                     fields.require("minor_radius").positive_length());
+  return make_shape<Torus>(value, fields.require("center").point(),
+                           fields.require("axis").direction(),
+                           fields.require("major_radius").positive_length(),
+                           fields.require("minor_radius").positive_length());
 }
 
 ShapePtr read_blob(const Value& value) {
@@ -113,44 +87,20 @@ ShapePtr read_blob(const Value& value) {
     balls.push_back({ball.require("center").point(), ball.require("radius").positive_length(),
                      strength ? strength->number() : 1});
   }
-  return make<Blob>(value, fields.require("threshold").number(), std::move(balls));
+  return make_shape<Blob>(value, fields.require("threshold").number(), std::move(balls));
 }
 
 ShapePtr read_box(const Value& value) {
   const Fields fields(value, {"lower", "upper", "inward"});
   const ShapePtr box =
-      make<Box>(value, fields.require("lower").point(), fields.require("upper").point());
-  return read_flag(fields, "inward") ? make<Complement>(value, box) : box;
+      make_shape<Box>(value, fields.require("lower").point(), fields.require("upper").point());
+  return read_flag(fields, "inward") ? make_shape<Complement>(value, box) : box;
 }
 
 ShapePtr read_parallelogram(const Value& value) {
   const Fields fields(value, {"corner", "u", "v"});
-  return make<Parallelogram>(value, fields.require("corner").point(), fields.require("u").point(),
-                             fields.require("v").point());
-}
-
-ShapePtr read_polygon(const Value& value) {
-  const Fields fields(value, {"points", "holes"});
-  std::vector<std::vector<Vec3>> holes;
-  if (const auto list = fields.find("holes")) {
-    for (const Value& hole : list->items()) holes.push_back(read_points(hole));
-  }
-  return make<Polygon>(value, read_points(fields.require("points")), holes);
-}
-
-ShapePtr read_mesh(const Value& value) {
-  const Fields fields(value, {"points", "triangles"});
-  TriangleSoup soup;
-  soup.points = read_points(fields.require("points"));
-  const int last = static_cast<int>(soup.points.size()) - 1;
-  for (const Value& triangle : fields.require("triangles").items(1)) {
-    const std::vector<Value> corners = triangle.items(3, 3);
-    auto& indices = soup.triangles.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) {
-      indices[i] = static_cast<std::uint32_t>(corners[i].integer(0, last));
-    }
-  }
-  return make<TriangleMesh>(value, std::move(soup.points), std::move(soup.triangles));
+  return make_shape<Parallelogram>(value, fields.require("corner").point(),
+                                   fields.require("u").point(), fields.require("v").point());
 }
 
 ReadShape read_nested(const Value& value, int depth);
@@ -180,16 +130,16 @@ ShapePtr read_csg(const Value& value, int depth) {
   try {
     return join(operation, solids);
   } catch (const InputError& error) {
-    refuse(value, error);
+    refuse_shape(value, error);
   }
 }
 
 ShapePtr read_complement(const Value& value, int depth) {
-  return make<Complement>(value, read_solid(value, value.label(), depth));
+  return make_shape<Complement>(value, read_solid(value, value.label(), depth));
 }
 
 ShapePtr read_reversed(const Value& value, int depth) {
-  return make<Reversed>(value, read_nested(value, depth + 1).shape);
+  return make_shape<Reversed>(value, read_nested(value, depth + 1).shape);
 }
 
 /// A shape that holds no others.
@@ -214,6 +164,8 @@ constexpr ShapeKind kShapeKinds[] = {
     {"parallelogram", plain<read_parallelogram>},
     {"polygon", plain<read_polygon>},
     {"mesh", plain<read_mesh>},
+    {"prism", plain<read_prism>},
+    {"revolution", plain<read_revolution>},
     {"union", read_csg<CsgOperation::unite>},
     {"intersection", read_csg<CsgOperation::intersect>},
     {"difference", read_csg<CsgOperation::subtract>},
@@ -260,7 +212,7 @@ ReadShape read_shape(const Value& value) { return read_nested(value, 1); }
 ShapePtr transformed(ShapePtr shape, const Fields& fields) {
   const std::optional<Value> steps = fields.find("transform");
   if (!steps) return shape;
-  return make<Instance>(*steps, std::move(shape), read_transform(*steps));
+  return make_shape<Instance>(*steps, std::move(shape), read_transform(*steps));
 }
 
 }  // namespace isolux

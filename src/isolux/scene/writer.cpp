@@ -47,6 +47,11 @@ std::size_t size_of(const ShapeDescription::Outlines& outlines) {
   for (const auto& outline : outlines) size += size_of(outline);
   return size;
 }
+std::size_t size_of(const ShapeDescription::Rows& rows) {
+  std::size_t size = 0;
+  for (const auto& row : rows) size += row.size();
+  return size;
+}
 std::size_t size_of(const ShapeDescription::Record& record);
 std::size_t size_of(const std::vector<ShapeDescription::Record>& records) {
   std::size_t size = 0;
@@ -87,9 +92,11 @@ std::array<std::string, 3> rows_of(const Affine& map) {
   return rows;
 }
 
-std::string flow(const ShapeDescription::Outlines& outlines) {
+/// "[[1, 2], [3]]"
+template <typename Item>
+std::string flow(const std::vector<std::vector<Item>>& lists) {
   std::string text = "[";
-  for (const auto& outline : outlines) text += (text.size() > 1 ? ", " : "") + flow(outline);
+  for (const auto& list : lists) text += (text.size() > 1 ? ", " : "") + flow(list);
   return text + "]";
 }
 

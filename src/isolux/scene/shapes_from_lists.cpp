@@ -1,0 +1,91 @@
+#include "isolux/scene/shapes_from_lists.h"
+
+#include "isolux/geometry/polygon.h"
+#include "isolux/geometry/prism.h"
+#include "isolux/geometry/revolution.h"
+#include "isolux/geometry/triangle_mesh.h"
+
+namespace isolux {
+namespace {
+
+std::vector<Vec3> read_points(const Value& list) {
+  std::vector<Vec3> points;
+  for (const Value& point : list.items(3)) points.push_back(point.point());
+  return points;
+}
+
+std::vector<std::vector<Vec3>> read_holes(const Fields& fields) {
+  std::vector<std::vector<Vec3>> holes;
+  if (const auto list = fields.find("holes")) {
+    for (const Value& hole : list->items()) holes.push_back(read_points(hole));
+  }
+  return holes;
+}
+
+PrismTop read_prism_top(const Fields& fields) {
+  PrismTop top{fields.require("center").point()};
+  if (const auto scale = fields.find("scale")) {
+    if (scale->is_list()) {
+      const std::vector<Value> factors = scale->items(2, 2);
+      top.scale = {factors[0].number(), factors[1].number()};
+    } else {
+      top.scale.fill(scale->number());
+    }
+  }
+  if (const auto twist = fields.find("twist")) top.twist = twist->number();
+  return top;
+}
+
+}  // namespace
+
+ShapePtr read_polygon(const Value& value) {
+  const Fields fields(value, {"points", "holes"});
+  return make_shape<Polygon>(value, read_points(fields.require("points")), read_holes(fields));
+}
+
+ShapePtr read_mesh(const Value& value) {
+  const Fields fields(value, {"points", "triangles"});
+  TriangleSoup soup;
+  soup.points = read_points(fields.require("points"));
+  const int last = static_cast<int>(soup.points.size()) - 1;
+  for (const Value& triangle : fields.require("triangles").items(1)) {
+    const std::vector<Value> corners = triangle.items(3, 3);
+    auto& indices = soup.triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      indices[i] = static_cast<std::uint32_t>(corners[i].integer(0, last));
+    }
+  }
+  return make_shape<TriangleMesh>(value, std::move(soup.points), std::move(soup.triangles));
+}
+
+ShapePtr read_prism(const Value& value) {
+  const Fields fields(value, {"points", "holes", "along", "center", "scale", "twist"});
+  std::optional<PrismTop> top;
+  if (fields.find("center") || fields.find("scale") || fields.find("twist")) {
+    top = read_prism_top(fields);
+  }
+  return make_shape<Prism>(value, read_points(fields.require("points")), read_holes(fields),
+                           fields.require("along").point(), top);
+}
+
+ShapePtr read_revolution(const Value& value) {
+  const Fields fields(value, {"center", "axis", "profile", "angle", "smooth", "open"});
+  std::vector<ProfilePoint> profile;
+  for (const Value& point : fields.require("profile").items(2)) {
+    const std::vector<Value> numbers = point.items(2, 2);
+    if (numbers[0].length() < 0) {
+      numbers[0].fail(
+          "the first number of a point of the 'profile', its distance from the axis, "
+          "must not be negative");
+    }
+    profile.push_back({numbers[0].length(), numbers[1].length()});
+  }
+  RevolutionForm form;
+  if (const auto angle = fields.find("angle")) form.angle = angle->number();
+  form.smooth = read_flag(fields, "smooth");
+  form.open = read_flag(fields, "open");
+  return make_shape<Revolution>(value, fields.require("center").point(),
+                                fields.require("axis").direction(), std::move(profile), form);
+}
+
+}  // namespace isolux
