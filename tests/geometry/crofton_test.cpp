@@ -12,6 +12,7 @@
 #include "isolux/geometry/prism.h"
 #include "isolux/geometry/revolution.h"
 #include "isolux/geometry/sphere.h"
+#include "isolux/geometry/swept_sphere.h"
 #include "isolux/geometry/torus.h"
 
 namespace isolux {
@@ -129,6 +130,28 @@ TEST(CroftonTest, ACurveThroughPointsOfACircleIsNearlyASphere) {
   const Revolution ball({}, {0, 0, 1}, half, {.smooth = true});
   EXPECT_NEAR(*ball.area(), 4 * pi, 1e-3);
   expect_measures(ball, *ball.area(), 4 * pi / 3);
+}
+
+TEST(CroftonTest, SweptSpheres) {
+  // A straight one is a capsule.
+  const double r = 0.3, l = 2;
+  const SweptSphere capsule({{{0, 0, 0}, r}, {{l, 0, 0}, r}}, false);
+  expect_measures(capsule, 2 * pi * r * l + 4 * pi * r * r,
+                  pi * r * r * l + 4 * pi * r * r * r / 3);
+  // Around a circle it is nearly a torus.
+  std::vector<CurvePoint> circle;
+  for (int i = 0; i < 24; ++i) {
+    circle.push_back({{std::cos(i * pi / 12), std::sin(i * pi / 12), 0}, r});
+  }
+  expect_measures(SweptSphere(circle, true), 4 * pi * pi * r, 2 * pi * pi * r * r);
+  // A straight one whose radius changes evenly is a cone with balls for ends: they bulge less than
+  // the smaller ball at one end, and touch it along circles off the ends by the slope.
+  const double big = 0.5, small = 0.1, slope = (big - small) / l;
+  const double flank = std::sqrt(1 - slope * slope);
+  const double side = pi * (big + small) * flank * flank * l;
+  const double ends = 2 * pi * big * big * (1 + slope) + 2 * pi * small * small * (1 - slope);
+  const SweptSphere cone({{{0, 0, 0}, big}, {{l, 0, 0}, small}}, false);
+  expect_measures(cone, side + ends, std::nullopt);
 }
 
 }  // namespace

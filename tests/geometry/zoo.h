@@ -29,6 +29,12 @@ inline void PrintTo(const Specimen& s, std::ostream* out) { *out << s.name; }
 /// At least one specimen of every shape, all of size 1 to 10 near the origin.
 const std::vector<Specimen>& zoo();
 
+/// Adds what is made from outlines, curves and grids: swept_zoo.cpp.
+void add_swept(std::vector<Specimen>& zoo);
+
+/// Points on a circle.
+std::vector<Vec3> rim(Vec3 center, Vec3 normal, double r);
+
 Vec3 random_direction(Random& random);
 
 /// A line of the invariant measure of lines, given that it meets the sphere; unit direction, the

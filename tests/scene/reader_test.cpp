@@ -51,6 +51,7 @@ TEST(Reader, TheRoomIsThatOfThePaper) {
 TEST(Reader, AllExamplesAreScenesWithLightAndCamera) {
   for (const auto& entry : fs::recursive_directory_iterator(kExamples)) {
     if (entry.path().extension() != ".yaml") continue;
+    if (entry.path().stem().extension() == ".lights") continue;  // beside a model of another format
     SCOPED_TRACE(entry.path().string());
     const Scene scene = load_scene(entry.path());
     EXPECT_FALSE(scene.cameras.empty());

@@ -166,6 +166,8 @@ constexpr ShapeKind kShapeKinds[] = {
     {"mesh", plain<read_mesh>},
     {"prism", plain<read_prism>},
     {"revolution", plain<read_revolution>},
+    {"sweep", plain<read_sweep>},
+    {"height_field", plain<read_height_field>},
     {"union", read_csg<CsgOperation::unite>},
     {"intersection", read_csg<CsgOperation::intersect>},
     {"difference", read_csg<CsgOperation::subtract>},

@@ -1,16 +1,18 @@
 #include "isolux/scene/shapes_from_lists.h"
 
+#include "isolux/geometry/height_field.h"
 #include "isolux/geometry/polygon.h"
 #include "isolux/geometry/prism.h"
 #include "isolux/geometry/revolution.h"
+#include "isolux/geometry/swept_sphere.h"
 #include "isolux/geometry/triangle_mesh.h"
 
 namespace isolux {
 namespace {
 
-std::vector<Vec3> read_points(const Value& list) {
+std::vector<Vec3> read_points(const Value& list, std::size_t least = 3) {
   std::vector<Vec3> points;
-  for (const Value& point : list.items(3)) points.push_back(point.point());
+  for (const Value& point : list.items(least)) points.push_back(point.point());
   return points;
 }
 
@@ -86,6 +88,35 @@ ShapePtr read_revolution(const Value& value) {
   form.open = read_flag(fields, "open");
   return make_shape<Revolution>(value, fields.require("center").point(),
                                 fields.require("axis").direction(), std::move(profile), form);
+}
+
+ShapePtr read_sweep(const Value& value) {
+  const Fields fields(value, {"points", "radius", "radii", "loop"});
+  std::vector<CurvePoint> points;
+  for (const Vec3& point : read_points(fields.require("points"), 2)) points.push_back({point});
+  const auto radius = fields.find("radius"), radii = fields.find("radii");
+  if (radius.has_value() == radii.has_value()) {
+    value.fail("'sweep' must have one of 'radius' and 'radii', one for each point");
+  }
+  if (radius) {
+    for (CurvePoint& point : points) point.radius = radius->positive_length();
+  } else {
+    const std::vector<Value> list = radii->items(points.size(), points.size());
+    for (std::size_t i = 0; i < list.size(); ++i) points[i].radius = list[i].positive_length();
+  }
+  return make_shape<SweptSphere>(value, std::move(points), read_flag(fields, "loop"));
+}
+
+ShapePtr read_height_field(const Value& value) {
+  const Fields fields(value, {"corner", "u", "v", "heights"});
+  std::vector<std::vector<double>> heights;
+  for (const Value& row : fields.require("heights").items(2)) {
+    auto& numbers = heights.emplace_back();
+    for (const Value& height : row.items(2)) numbers.push_back(height.length());
+  }
+  return make_shape<HeightField>(value, fields.require("corner").point(),
+                                 fields.require("u").point(), fields.require("v").point(),
+                                 std::move(heights));
 }
 
 }  // namespace isolux

@@ -10,5 +10,7 @@ ShapePtr read_polygon(const Value& value);
 ShapePtr read_mesh(const Value& value);
 ShapePtr read_prism(const Value& value);
 ShapePtr read_revolution(const Value& value);
+ShapePtr read_sweep(const Value& value);
+ShapePtr read_height_field(const Value& value);
 
 }  // namespace isolux

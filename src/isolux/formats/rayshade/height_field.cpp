@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/height_field.h"
+#include "isolux/geometry/triangle_mesh.h"
 
 namespace isolux::rayshade {
 namespace {
@@ -22,9 +25,36 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at, bool big_end_fir
   return word;
 }
 
+/// The triangles between the places that are there, cut as those of a HeightField.
+std::shared_ptr<const Shape> mesh_with_gaps(const std::vector<std::vector<double>>& heights) {
+  const auto side = static_cast<std::uint32_t>(heights.size());
+  const double step = 1.0 / (side - 1);
+  TriangleSoup soup;
+  std::vector<std::uint32_t> index(std::size_t{side} * side, UINT32_MAX);
+  for (std::uint32_t i = 0; i < side * side; ++i) {
+    const double height = heights[i / side][i % side];
+    if (height <= kUnset) continue;
+    index[i] = static_cast<std::uint32_t>(soup.points.size());
+    soup.points.push_back({i % side * step, i / side * step, height});
+  }
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (std::max({index[a], index[b], index[c]}) == UINT32_MAX) return;
+    soup.triangles.push_back({index[a], index[b], index[c]});
+  };
+  for (std::uint32_t y = 0; y + 1 < side; ++y) {
+    for (std::uint32_t x = 0; x + 1 < side; ++x) {
+      const std::uint32_t i = y * side + x;
+      add(i, i + 1, i + side);
+      add(i + 1, i + side + 1, i + side);
+    }
+  }
+  if (soup.triangles.empty()) throw InputError("the height field has no triangle");
+  return std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
+}
+
 }  // namespace
 
-TriangleSoup height_field(const std::string& bytes) {
+std::shared_ptr<const Shape> height_field(const std::string& bytes) {
   std::uint32_t side = 0;
   bool big_end_first = false;
   for (const bool big : {false, true}) {
@@ -38,31 +68,17 @@ TriangleSoup height_field(const std::string& bytes) {
                     "heights, 4 bytes each",
                     kLargestSide));
   }
-  TriangleSoup soup;
-  std::vector<std::uint32_t> index(std::size_t{side} * side, UINT32_MAX);
+  std::vector<std::vector<double>> heights(side, std::vector<double>(side));
+  bool has_gaps = false;
   for (std::uint32_t i = 0; i < side * side; ++i) {
     const auto height =
         double{std::bit_cast<float>(word_at(bytes, 4 + 4 * std::size_t{i}, big_end_first))};
     if (!std::isfinite(height)) throw InputError("a height is no finite number");
-    if (height <= kUnset) continue;
-    index[i] = static_cast<std::uint32_t>(soup.points.size());
-    const double step = 1.0 / (side - 1);
-    soup.points.push_back({i % side * step, i / side * step, height});
+    has_gaps |= height <= kUnset;
+    heights[i / side][i % side] = height;
   }
-  // Cells are cut from (x + 1, y) to (x, y + 1).
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (std::max({index[a], index[b], index[c]}) == UINT32_MAX) return;
-    soup.triangles.push_back({index[a], index[b], index[c]});
-  };
-  for (std::uint32_t y = 0; y + 1 < side; ++y) {
-    for (std::uint32_t x = 0; x + 1 < side; ++x) {
-      const std::uint32_t i = y * side + x;
-      add(i, i + 1, i + side);
-      add(i + 1, i + side + 1, i + side);
-    }
-  }
-  if (soup.triangles.empty()) throw InputError("the height field has no triangle");
-  return soup;
+  if (has_gaps) return mesh_with_gaps(heights);
+  return std::make_shared<HeightField>(Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, std::move(heights));
 }
 
 }  // namespace isolux::rayshade

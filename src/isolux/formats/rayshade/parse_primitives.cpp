@@ -148,9 +148,7 @@ void Parser::height_field(Node& node) {
   const Place place = tokens_.peek().place;
   const std::string name = tokens_.filename();
   try {
-    TriangleSoup soup = rayshade::height_field(read_file(file_beside(source_, name, place)));
-    node.geometry =
-        ShapePtr(std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles)));
+    node.geometry = rayshade::height_field(read_file(file_beside(source_, name, place)));
   } catch (const InputError& error) {
     fail(place, fmt::format("'heightfield' can't be made: {}", error.what()));
   }
