@@ -1,10 +1,10 @@
-#include "isolux/formats/rayshade/notes.h"
+#include "isolux/formats/notes.h"
 
 #include <algorithm>
 
 #include "isolux/scene/spelling.h"
 
-namespace isolux::rayshade {
+namespace isolux {
 
 void Notes::add(const std::string& line) {
   if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
@@ -27,4 +27,4 @@ std::vector<std::string> Notes::lines() const {
   return all;
 }
 
-}  // namespace isolux::rayshade
+}  // namespace isolux

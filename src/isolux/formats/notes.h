@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace isolux::rayshade {
+namespace isolux {
 
 /// What to tell about a scene that was read, each thing once.
 class Notes {
@@ -22,4 +22,4 @@ class Notes {
   std::vector<std::pair<std::string_view, std::vector<std::string_view>>> reasons_;
 };
 
-}  // namespace isolux::rayshade
+}  // namespace isolux

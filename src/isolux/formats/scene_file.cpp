@@ -7,6 +7,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/formats/mgf/mgf.h"
+#include "isolux/formats/openscad/reader.h"
 #include "isolux/formats/rayshade/reader.h"
 #include "isolux/scene/reader.h"
 #include "isolux/scene/spelling.h"
@@ -29,6 +30,7 @@ const std::vector<FormatReader>& format_readers() {
          return SceneFile{load_scene(path), {}};
        }},
       {"mgf", {".mgf"}, read_mgf},
+      {"openscad", {".csg"}, read_openscad},
       {"rayshade", {".ray"}, read_rayshade},
   };
   return all;

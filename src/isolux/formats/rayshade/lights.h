@@ -1,7 +1,7 @@
 #pragma once
 
+#include "isolux/formats/notes.h"
 #include "isolux/formats/rayshade/model.h"
-#include "isolux/formats/rayshade/notes.h"
 #include "isolux/scene/scene.h"
 
 namespace isolux::rayshade {

@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
+#include "isolux/formats/notes.h"
 #include "isolux/formats/rayshade/model.h"
-#include "isolux/formats/rayshade/notes.h"
 #include "isolux/formats/rayshade/tokens.h"
 
 namespace isolux::rayshade {

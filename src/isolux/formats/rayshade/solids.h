@@ -2,8 +2,8 @@
 
 #include <unordered_map>
 
+#include "isolux/formats/notes.h"
 #include "isolux/formats/rayshade/model.h"
-#include "isolux/formats/rayshade/notes.h"
 #include "isolux/formats/rayshade/planes.h"
 
 namespace isolux::rayshade {
