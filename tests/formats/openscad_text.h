@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "formats/has_note.h"
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
 #include "isolux/formats/scene_file.h"
@@ -48,13 +49,6 @@ inline std::string model_refusal(const std::string& text, const std::string& lig
     return message.starts_with(folder) ? message.substr(folder.size()) : message;
   }
   return {};
-}
-
-inline bool has_note(const SceneFile& file, const std::string& part) {
-  for (const std::string& note : file.notes) {
-    if (note.find(part) != std::string::npos) return true;
-  }
-  return false;
 }
 
 /// The volume that a fine grid of lines finds in the shape, to about 1e-3 of it.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "formats/has_note.h"
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
 #include "isolux/formats/scene_file.h"
@@ -48,13 +49,6 @@ inline std::string rayshade_refusal(const std::string& text) {
     return message.starts_with(file) ? message.substr(file.size()) : message;
   }
   return {};
-}
-
-inline bool has_note(const SceneFile& file, const std::string& part) {
-  for (const std::string& note : file.notes) {
-    if (note.find(part) != std::string::npos) return true;
-  }
-  return false;
 }
 
 inline void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {

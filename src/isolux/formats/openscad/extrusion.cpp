@@ -111,7 +111,7 @@ ShapePtr Drawing::polygon(const Node& node, const Affine& map) const {
 /// them, with those just inside as its holes.
 ShapePtr Drawing::outlines(const Node& node, std::vector<Outline> outlines,
                            const Affine& map) const {
-  constexpr std::size_t kMostOutlines = 1000;
+  constexpr std::size_t kMostOutlines = 200, kMostCorners = 1000;
   for (Outline& outline : outlines) {
     outline = cleaned(outline);
     for (Vec3& p : outline) p = map.point(p);
@@ -119,6 +119,11 @@ ShapePtr Drawing::outlines(const Node& node, std::vector<Outline> outlines,
   std::erase_if(outlines, [](const Outline& outline) { return outline.size() < 3; });
   if (outlines.size() > kMostOutlines) {
     context_.tree.fail(node.place, fmt::format("more than {} paths", kMostOutlines));
+  }
+  for (const Outline& outline : outlines) {
+    if (outline.size() <= kMostCorners) continue;
+    context_.tree.fail(node.place,
+                       fmt::format("an outline of more than {} corners: use fewer", kMostCorners));
   }
   const auto around = [&](std::size_t outer, std::size_t inner) {
     Ring ring(outlines[outer].size());
