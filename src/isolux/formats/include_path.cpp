@@ -31,7 +31,7 @@ bool is_below(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-Includes::Includes(fs::path main_file) {
+Includes::Includes(fs::path main_file, Base base) : base_(base) {
   root_ = resolved(main_file.has_parent_path() ? main_file.parent_path() : fs::path("."));
   open_.push_back(std::move(main_file));
 }
@@ -39,10 +39,12 @@ Includes::Includes(fs::path main_file) {
 SourceText Includes::open(std::string_view name) {
   const fs::path given(name);
   if (given.empty() || given.is_absolute()) {
-    throw InputError(
-        fmt::format("{} can't be included: give a path relative to this file", in_quotes(name)));
+    throw InputError(fmt::format("{} can't be included: give a path relative to {}",
+                                 in_quotes(name),
+                                 base_ == Base::main_file ? "the scene's folder" : "this file"));
   }
-  const fs::path path = (open_.back().parent_path() / given).lexically_normal();
+  const fs::path& from = base_ == Base::main_file ? open_.front() : open_.back();
+  const fs::path path = (from.parent_path() / given).lexically_normal();
   const fs::path target = resolved(path);
   if (!is_below(root_, target)) {
     throw InputError(

@@ -14,12 +14,14 @@ struct SourceText {
 };
 
 /// The files of a scene that are open, one including the next. A file may include those in the
-/// folder of the main file and below it, by names relative to its own folder; links that lead out
-/// of there are refused.
+/// folder of the main file and below it; links that lead out of there are refused.
 class Includes {
  public:
+  /// The folder that names are relative to.
+  enum class Base { including_file, main_file };
+
   /// `main_file` need not exist: its text may come from elsewhere.
-  explicit Includes(std::filesystem::path main_file);
+  explicit Includes(std::filesystem::path main_file, Base base = Base::including_file);
 
   /// Reads the file that the innermost open one calls `name`, and makes it the innermost. Throws
   /// InputError (without a place: the reader that called adds it) where the name is absolute, leads
@@ -30,6 +32,7 @@ class Includes {
   void close() { open_.pop_back(); }
 
  private:
+  Base base_;
   std::filesystem::path root_;               ///< the main file's folder, without links
   std::vector<std::filesystem::path> open_;  ///< as named in messages, the main file first
   std::size_t files_ = 0;

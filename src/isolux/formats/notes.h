@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace isolux {
@@ -10,16 +9,24 @@ namespace isolux {
 /// What to tell about a scene that was read, each thing once.
 class Notes {
  public:
-  /// A line of its own.
+  /// A line of its own; after a hundred of these, no more.
   void add(const std::string& line);
   /// A word of the language that was left out; words left out for one reason share a line. Both
   /// live on.
   void left_out(std::string_view word, std::string_view reason);
+  /// A word that means something else here, likewise.
+  void changed(std::string_view word, std::string_view into);
   std::vector<std::string> lines() const;
 
  private:
+  struct Shared {
+    std::string_view joint, reason;
+    std::vector<std::string_view> words;
+  };
+  void add(std::string_view word, std::string_view joint, std::string_view reason);
+
   std::vector<std::string> lines_;
-  std::vector<std::pair<std::string_view, std::vector<std::string_view>>> reasons_;
+  std::vector<Shared> shared_;
 };
 
 }  // namespace isolux

@@ -8,6 +8,7 @@
 #include "isolux/core/error.h"
 #include "isolux/formats/mgf/mgf.h"
 #include "isolux/formats/openscad/reader.h"
+#include "isolux/formats/radiance/read_radiance.h"
 #include "isolux/formats/rayshade/reader.h"
 #include "isolux/scene/reader.h"
 #include "isolux/scene/spelling.h"
@@ -31,6 +32,7 @@ const std::vector<FormatReader>& format_readers() {
        }},
       {"mgf", {".mgf"}, read_mgf},
       {"openscad", {".csg"}, read_openscad},
+      {"radiance", {".rad", ".rif"}, read_radiance},
       {"rayshade", {".ray"}, read_rayshade},
   };
   return all;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "isolux/core/vec3.h"
-#include "isolux/formats/mgf/statement.h"
+#include "isolux/formats/statement.h"
 #include "isolux/scene/spelling.h"
 
 namespace isolux::mgf {

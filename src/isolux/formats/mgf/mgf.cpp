@@ -2,6 +2,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/mgf/reader.h"
 
 namespace isolux {
@@ -18,8 +19,7 @@ SceneFile parse_mgf(const std::string& text, const std::filesystem::path& file) 
 }
 
 SceneFile read_mgf(const std::filesystem::path& path) {
-  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-  return parse_mgf(read_file(path, kMostBytes), path);
+  return parse_mgf(read_file(path, kLargestMainFile), path);
 }
 
 }  // namespace isolux

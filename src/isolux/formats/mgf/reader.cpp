@@ -7,35 +7,15 @@
 #include "isolux/core/error.h"
 #include "isolux/formats/colorimetry.h"
 #include "isolux/formats/default_camera.h"
-#include "isolux/formats/mgf/transform.h"
+#include "isolux/formats/limits.h"
+#include "isolux/formats/mgf/statement_reader.h"
+#include "isolux/formats/transform.h"
 #include "isolux/geometry/require.h"
 
 namespace isolux::mgf {
 namespace {
 
-constexpr std::size_t kMostObjects = 1'000'000;
-constexpr std::size_t kMostMaps = 2'000'000;  // of all transforms together
-constexpr double kMostCornerPairs = 1e8;      // of all faces together
 constexpr std::size_t kDeepestObjects = 32;
-constexpr std::size_t kLongestName = 60;
-constexpr double kMostReflectance = 0.999;
-constexpr double kMostEmittance = 1e12;  // lm/m²
-
-/// A word as a name in a scene: printing ASCII, not too long.
-std::string clean_name(std::string_view word) {
-  std::string name(word.substr(0, kLongestName));
-  for (char& c : name) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return name;
-}
-
-/// The name, and a number behind it from its second use on. Names have no blanks, so that no two
-/// results are the same.
-std::string numbered(const std::string& name, std::map<std::string, std::size_t>& uses) {
-  const std::size_t count = ++uses[name];
-  return count == 1 ? name : fmt::format("{} {}", name, count);
-}
 
 }  // namespace
 
@@ -73,7 +53,7 @@ void Reader::read(const Statement& s) {
   if (is_surface(s.word(0))) return add_surface(s);
   const auto action = kActions.find(s.word(0));
   if (action != kActions.end()) return (this->*action->second)(s);
-  findings_.unknown.emplace(s.word(0).substr(0, kLongestName));
+  findings_.unknown.insert(clean_name(s.word(0)));
 }
 
 SceneFile Reader::finish() {
@@ -164,8 +144,7 @@ void Reader::read_fraction(const Statement& s) {
     material.diffuse = value;
     material.diffuse_color = colors_.current();
   } else if (what == "ed") {
-    if (value > kMostEmittance)
-      s.fail(1, fmt::format("must be at most {:g} lm/m²", kMostEmittance));
+    if (value > kMostExitance) s.fail(1, fmt::format("must be at most {:g} lm/m²", kMostExitance));
     material.emittance = value;
     material.emittance_color = colors_.current();
   } else if (what == "td") {
@@ -200,6 +179,9 @@ void Reader::begin_transform(const Statement& s, std::size_t first) {
   const std::vector<Affine> outer =
       transforms_.empty() ? std::vector<Affine>(1) : transforms_.back().maps;
   const std::vector<Affine> inner = read_transform(s, first, kMostMaps / outer.size());
+  if (first < s.size())
+    s.fail(first,
+           fmt::format("{} is no transform: write xf -t 1 0 0 ...", in_quotes(s.word(first))));
   maps_made_ += outer.size() * inner.size();
   if (maps_made_ > kMostMaps) {
     s.fail(0, "the arrays of this scene have too many instances; use fewer");
@@ -238,7 +220,7 @@ void Reader::skip_luminaire(const Statement& s) {
 }
 
 std::string Reader::next_name(const Statement& s) {
-  return numbered(names_.empty() ? std::string(s.word(0)) : names_.back(), name_uses_);
+  return object_names_.next(names_.empty() ? std::string(s.word(0)) : names_.back());
 }
 
 const Reader::UsedMaterial& Reader::current_material() {
@@ -269,7 +251,7 @@ const Reader::UsedMaterial& Reader::current_material() {
   const auto [number, is_other] =
       material_numbers_.try_emplace({name, reflectance.r, reflectance.g, reflectance.b},
                                     static_cast<std::uint32_t>(materials.size()));
-  if (is_other) materials.push_back({numbered(name, material_name_uses_), reflectance});
+  if (is_other) materials.push_back({material_names_.next(name), reflectance});
   used->second.number = number->second;
   return used->second;
 }
@@ -279,8 +261,8 @@ void Reader::add_surface(const Statement& s) {
   const std::vector<Affine> here(1);
   const std::vector<Affine>& maps = transforms_.empty() ? here : transforms_.back().maps;
   auto& objects = result_.scene.objects;
-  if (objects.size() + maps.size() > kMostObjects) {
-    s.fail(0, fmt::format("the scene has more than {} surfaces", kMostObjects));
+  if (objects.size() + maps.size() > kMostSurfaces) {
+    s.fail(0, fmt::format("the scene has more than {} surfaces", kMostSurfaces));
   }
   const auto corners = static_cast<double>(surface.corners);
   corner_pairs_ += corners * corners * static_cast<double>(maps.size());

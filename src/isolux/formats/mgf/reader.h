@@ -7,6 +7,7 @@
 #include "isolux/formats/mgf/contexts.h"
 #include "isolux/formats/mgf/notes.h"
 #include "isolux/formats/mgf/surface.h"
+#include "isolux/formats/object_names.h"
 #include "isolux/formats/scene_file.h"
 
 namespace isolux::mgf {
@@ -70,7 +71,7 @@ class Reader {
   std::size_t maps_made_ = 0;
   double corner_pairs_ = 0;  ///< of all faces: the effort to make them
 
-  std::map<std::string, std::size_t> name_uses_, material_name_uses_;
+  NumberedNames object_names_, material_names_;
   std::map<std::tuple<std::string, Material>, UsedMaterial> used_materials_;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> material_numbers_;
   Findings findings_;

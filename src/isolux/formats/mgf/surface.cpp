@@ -2,16 +2,10 @@
 
 #include <map>
 
-#include "isolux/formats/mgf/face.h"
-#include "isolux/geometry/cylinder.h"
-#include "isolux/geometry/disk.h"
-#include "isolux/geometry/instance.h"
+#include "isolux/formats/face.h"
 #include "isolux/geometry/polygon.h"
-#include "isolux/geometry/require.h"
 #include "isolux/geometry/reversed.h"
-#include "isolux/geometry/sphere.h"
 #include "isolux/geometry/tessellation.h"
-#include "isolux/geometry/torus.h"
 #include "isolux/geometry/triangle_mesh.h"
 
 namespace isolux::mgf {
@@ -20,56 +14,17 @@ namespace {
 using ShapePtr = std::shared_ptr<const Shape>;
 using Vertices = Contexts<Vertex>;
 
-bool is_short(double length) { return !(std::abs(length) > 2 * kShortestLength); }
-
 ShapePtr turned_over(ShapePtr shape) { return std::make_shared<Reversed>(std::move(shape)); }
-
-/// A surface that `make` builds from a map that keeps angles and its factor, and that other maps
-/// show as instances of one shape.
-template <typename Make>
-Surface round_surface(const Make& make) {
-  Surface surface;
-  surface.shape = [make, original = ShapePtr{}](const Affine& map) mutable -> ShapePtr {
-    if (const auto factor = map.similarity()) return make(map, *factor);
-    if (!original) original = make(Affine{}, 1);
-    return original ? std::make_shared<Instance>(original, map) : nullptr;
-  };
-  return surface;
-}
 
 Surface read_sphere(const Statement& s, const Vertices& vertices) {
   s.expect_arguments(2, 2, "sph center radius");
-  const Vec3 center = vertices.named(s, 1).point;
-  const double radius = s.number(2);
-  return round_surface([=](const Affine& map, double factor) -> ShapePtr {
-    if (is_short(radius * factor)) return nullptr;
-    const auto ball = std::make_shared<Sphere>(map.point(center), std::abs(radius) * factor);
-    return radius > 0 ? ball : turned_over(ball);
-  });
-}
-
-/// An open tube whose ends are points with radii.
-Surface tube(const Vec3& start, const Vec3& end, double start_radius, double end_radius) {
-  return round_surface([=](const Affine& map, double factor) -> ShapePtr {
-    const Vec3 a = map.point(start), b = map.point(end);
-    double ra = std::abs(start_radius) * factor, rb = std::abs(end_radius) * factor;
-    if (is_short(distance(a, b)) || is_short(std::max(ra, rb))) return nullptr;
-    if (is_short(ra)) ra = 0;
-    if (is_short(rb)) rb = 0;
-    ShapePtr side;
-    if (ra == rb) {
-      side = std::make_shared<Cylinder>(a, b, ra, false);
-    } else {
-      side = std::make_shared<Frustum>(a, b, ra, rb, false);
-    }
-    return start_radius < 0 || end_radius < 0 ? turned_over(side) : side;
-  });
+  return {placed_ball(vertices.named(s, 1).point, s.number(2))};
 }
 
 Surface read_cylinder(const Statement& s, const Vertices& vertices) {
   s.expect_arguments(3, 3, "cyl start radius end");
   const double radius = s.number(2);
-  return tube(vertices.named(s, 1).point, vertices.named(s, 3).point, radius, radius);
+  return {placed_tube(vertices.named(s, 1).point, vertices.named(s, 3).point, radius, radius)};
 }
 
 Surface read_cone(const Statement& s, const Vertices& vertices) {
@@ -78,7 +33,8 @@ Surface read_cone(const Statement& s, const Vertices& vertices) {
   if (std::min(start_radius, end_radius) < 0 && std::max(start_radius, end_radius) > 0) {
     s.fail(4, "the radii of a cone must have the same sign");
   }
-  return tube(vertices.named(s, 1).point, vertices.named(s, 3).point, start_radius, end_radius);
+  return {placed_tube(vertices.named(s, 1).point, vertices.named(s, 3).point, start_radius,
+                      end_radius)};
 }
 
 /// The vertex that word 1 names, which needs a normal.
@@ -95,12 +51,7 @@ Surface read_ring(const Statement& s, const Vertices& vertices) {
   const Vertex center = oriented_center(s, vertices);
   const double inner = s.number_of_at_least_0(2), outer = s.number_of_at_least_0(3);
   if (inner > outer) s.fail(2, "the inner radius must be less than the outer one");
-  return round_surface([=](const Affine& map, double factor) -> ShapePtr {
-    if (is_short((outer - inner) * factor)) return nullptr;
-    const double hole = is_short(inner * factor) ? 0 : inner * factor;
-    return std::make_shared<Disk>(map.point(center.point), map.vector(normalized(center.normal)),
-                                  outer * factor, hole);
-  });
+  return {placed_ring(center.point, center.normal, inner, outer)};
 }
 
 Surface read_torus(const Statement& s, const Vertices& vertices) {
@@ -111,15 +62,7 @@ Surface read_torus(const Statement& s, const Vertices& vertices) {
   if (inward) inner = -inner, outer = -outer;
   if (inner < 0) s.fail(2, "the radii of a torus must have the same sign");
   if (inner > outer) s.fail(2, "the inner radius must be less than the outer one");
-  Surface surface = round_surface([=](const Affine& map, double factor) -> ShapePtr {
-    // A hole that is closed to a point is opened by a hair: such a torus cuts itself there.
-    const double major = 0.5 * (inner + outer) * factor;
-    const double minor = std::min(0.5 * (outer - inner) * factor, major * (1 - 1e-9));
-    if (is_short(minor)) return nullptr;
-    const auto ring = std::make_shared<Torus>(map.point(center.point),
-                                              map.vector(normalized(center.normal)), major, minor);
-    return inward ? turned_over(ring) : ring;
-  });
+  Surface surface{placed_torus(center.point, center.normal, inner, outer, inward)};
   surface.can_emit = false;
   return surface;
 }
@@ -146,20 +89,6 @@ Region region_of(const Statement& s, const std::vector<Vertex>& corners) {
   }
 }
 
-Region placed(const Region& region, const Affine& map) {
-  Region result = region;
-  const auto place = [&](Contour& contour) {
-    for (Vec3& p : contour) {
-      p = map.point(p);
-      require_point(p, "vertex");
-    }
-    if (map.determinant() < 0) std::reverse(contour.begin(), contour.end());
-  };
-  place(result.outline);
-  for (Contour& hole : result.holes) place(hole);
-  return result;
-}
-
 Surface face_of(const Region& region, const std::vector<Vertex>& corners) {
   constexpr double kSmoothed = 1e-3;  // rad off the normal of the face
   Surface surface;
@@ -170,7 +99,7 @@ Surface face_of(const Region& region, const std::vector<Vertex>& corners) {
     surface.smoothed |=
         length(cross(v.normal, normal)) > kSmoothed * length(v.normal) * length(normal);
   }
-  surface.shape = [region](const Affine& map) { return face_shape(placed(region, map)); };
+  surface.shape = placed_face(region);
   return surface;
 }
 

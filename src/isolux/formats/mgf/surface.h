@@ -1,20 +1,13 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-
-#include "isolux/core/affine.h"
 #include "isolux/formats/mgf/contexts.h"
-#include "isolux/geometry/shape.h"
+#include "isolux/formats/placed_shape.h"
 
 namespace isolux::mgf {
 
 /// A geometric entity, as read.
 struct Surface {
-  /// The shape as a map places it; null where it is too small to have an area. A map that keeps
-  /// angles is applied to its numbers. Throws InputError, without a place, where they make no
-  /// shape.
-  std::function<std::shared_ptr<const Shape>(const Affine& map)> shape;
+  PlacedShape shape;
   std::size_t corners = 0;  ///< of a face or of the end of a prism
   bool flat = true;         ///< its corners lie in a plane
   bool smoothed = false;    ///< has vertex normals that are not those of the surface

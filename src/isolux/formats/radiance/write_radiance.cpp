@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "isolux/formats/identifiers.h"
+#include "isolux/formats/radiance/photometry.h"
 #include "isolux/formats/simple_surface.h"
 
 namespace isolux {
@@ -41,7 +42,7 @@ class RadianceText {
     const Material& surface = scene_.materials[object.material];
     id = names_.next(surface.name);
     if (object.emits()) {
-      const Rgb radiance = e / (std::numbers::pi * kRadianceEfficacy);
+      const Rgb radiance = radiance_of_luminance(e / std::numbers::pi);
       fmt::format_to(std::back_inserter(materials_), "void light {}\n0\n0\n3 {} {} {}\n\n", id,
                      radiance.r, radiance.g, radiance.b);
     } else {

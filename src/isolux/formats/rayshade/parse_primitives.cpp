@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "isolux/core/file.h"
 #include "isolux/formats/rayshade/height_field.h"
 #include "isolux/formats/rayshade/make.h"
 #include "isolux/formats/rayshade/parser.h"
@@ -148,7 +147,8 @@ void Parser::height_field(Node& node) {
   const Place place = tokens_.peek().place;
   const std::string name = tokens_.filename();
   try {
-    node.geometry = rayshade::height_field(read_file(file_beside(source_, name, place)));
+    node.geometry = rayshade::height_field(includes_.open(name).text);
+    includes_.close();
   } catch (const InputError& error) {
     fail(place, fmt::format("'heightfield' can't be made: {}", error.what()));
   }

@@ -15,7 +15,10 @@ constexpr std::string_view kViewWords[] = {"eyep", "lookp", "up", "fov", "screen
 }  // namespace
 
 Parser::Parser(const SourceText& source, Notes& notes)
-    : source_(source), notes_(notes), tokens_(source), current_(1) {}
+    : includes_(source.files.front(), Includes::Base::main_file),
+      notes_(notes),
+      tokens_(source),
+      current_(1) {}
 
 Model Parser::parse() {
   Members world;

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "isolux/formats/include_path.h"
 #include "isolux/formats/notes.h"
 #include "isolux/formats/rayshade/model.h"
 #include "isolux/formats/rayshade/tokens.h"
@@ -78,7 +79,7 @@ class Parser {
   void skip_mapping();
   void skip_atmosphere();
 
-  const SourceText& source_;
+  Includes includes_;  ///< for height fields
   Notes& notes_;
   Tokens tokens_;
   Model model_;

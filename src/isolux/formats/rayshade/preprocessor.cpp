@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "isolux/core/file.h"
+#include "isolux/formats/include_path.h"
 #include "isolux/formats/rayshade/macros.h"
 #include "isolux/scene/spelling.h"
 
@@ -13,8 +14,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLargestText = std::size_t{64} << 20;  ///< bytes, of all files together
-constexpr std::size_t kMostIncludes = 1000;
-constexpr int kDeepestInclude = 20;
 
 /// The characters of one file, and the place of the next.
 class Cursor {
@@ -67,9 +66,8 @@ class Cursor {
 
 class Preprocessor {
  public:
-  explicit Preprocessor(const fs::path& scene) {
-    source_.folder = scene.parent_path();
-    read_file(scene);
+  explicit Preprocessor(const fs::path& scene) : includes_(scene, Includes::Base::main_file) {
+    read_file({scene.string(), isolux::read_file(scene, kLargestText)});
   }
   SourceText take() { return std::move(source_); }
 
@@ -85,7 +83,7 @@ class Preprocessor {
   bool active() const {
     return conditions_.empty() || (conditions_.back().outer && conditions_.back().holds);
   }
-  void read_file(const fs::path& path);
+  void read_file(const isolux::SourceText& file);
   void read_text(Cursor& in);
   void identifier(Cursor& in);
   void directive(Cursor& in);
@@ -93,11 +91,11 @@ class Preprocessor {
   void condition(std::string_view word, std::string_view what, const Place& place);
   void copy(Cursor& in, std::size_t count);
 
+  Includes includes_;
   SourceText source_;
   Macros macros_;
   std::vector<Condition> conditions_;
   bool joined_ = false;  ///< whether the next character continues the last piece
-  int depth_ = 0;
   std::size_t read_bytes_ = 0;
 };
 
@@ -113,11 +111,10 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-void Preprocessor::read_file(const fs::path& path) {
-  const std::string text = isolux::read_file(path, kLargestText);
-  read_bytes_ += text.size();
-  source_.files.push_back(path.string());
-  Cursor in(text, source_.files.back());
+void Preprocessor::read_file(const isolux::SourceText& file) {
+  read_bytes_ += file.text.size();
+  source_.files.push_back(file.file);
+  Cursor in(file.text, source_.files.back());
   if (read_bytes_ > kLargestText) fail(in.place(), "the scene's files have more than 64 MiB");
   const std::size_t outer = conditions_.size();
   joined_ = false;
@@ -257,34 +254,18 @@ void Preprocessor::include(std::string_view what, const Place& place) {
   if ((what.empty() || (what[0] != '"' && what[0] != '<')) || end == what.npos) {
     fail(place, "'#include' needs the name of a file in quotes, such as \"glass.def.ray\"");
   }
-  if (depth_ >= kDeepestInclude || source_.files.size() >= kMostIncludes) {
-    fail(place, "too many files included: does one include itself?");
+  isolux::SourceText file;
+  try {
+    file = includes_.open(what.substr(1, end - 1));
+  } catch (const InputError& error) {
+    fail(place, error.what());
   }
-  const fs::path path = file_beside(source_, std::string(what.substr(1, end - 1)), place);
-  ++depth_;
-  read_file(path);
-  --depth_;
+  read_file(file);
+  includes_.close();
 }
 
 }  // namespace
 
 SourceText preprocess(const fs::path& scene) { return Preprocessor(scene).take(); }
-
-fs::path file_beside(const SourceText& source, const std::string& name, const Place& place) {
-  std::error_code failure;
-  const fs::path folder =
-      fs::weakly_canonical(source.folder.empty() ? fs::path(".") : source.folder, failure);
-  const fs::path wanted = fs::weakly_canonical(folder / name, failure);
-  const auto [in_folder, in_wanted] =
-      std::mismatch(folder.begin(), folder.end(), wanted.begin(), wanted.end());
-  if (failure || in_folder != folder.end() || fs::path(name).is_absolute()) {
-    fail(place,
-         fmt::format("file {} lies outside the scene's folder: put it there", in_quotes(name)));
-  }
-  if (!fs::is_regular_file(wanted, failure)) {
-    fail(place, fmt::format("there is no file {} in the scene's folder", in_quotes(name)));
-  }
-  return source.folder / name;
-}
 
 }  // namespace isolux::rayshade

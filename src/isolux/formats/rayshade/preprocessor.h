@@ -20,16 +20,11 @@ struct SourceText {
 
   std::string text;
   std::vector<Piece> pieces;
-  std::deque<std::string> files;
-  std::filesystem::path folder;  ///< of the scene
+  std::deque<std::string> files;  ///< the scene's own first
 };
 
 /// Reads a scene through the directives of the C preprocessor: define, undef, include, ifdef,
 /// ifndef, if (of 0 or 1), else, endif.
 SourceText preprocess(const std::filesystem::path& scene);
-
-/// A file that a scene names, which must lie in the scene's folder or below.
-std::filesystem::path file_beside(const SourceText& source, const std::string& name,
-                                  const Place& place);
 
 }  // namespace isolux::rayshade

@@ -10,7 +10,7 @@ namespace {
 
 SceneFile read(const std::filesystem::path& path) {
   using namespace rayshade;
-  const SourceText source = preprocess(path);
+  const rayshade::SourceText source = preprocess(path);
   Notes notes;
   Model model = Parser(source, notes).parse();
   if (model.lights.empty()) {

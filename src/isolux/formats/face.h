@@ -5,7 +5,7 @@
 
 #include "isolux/geometry/shape.h"
 
-namespace isolux::mgf {
+namespace isolux {
 
 using Contour = std::vector<Vec3>;  ///< corners, m
 
@@ -31,4 +31,4 @@ bool is_flat(const Region& region);
 /// Twice the area of a contour, along its normal (Newell).
 Vec3 doubled_area(const Contour& contour);
 
-}  // namespace isolux::mgf
+}  // namespace isolux

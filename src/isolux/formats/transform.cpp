@@ -1,4 +1,4 @@
-#include "isolux/formats/mgf/transform.h"
+#include "isolux/formats/transform.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "isolux/scene/spelling.h"
 
-namespace isolux::mgf {
+namespace isolux {
 namespace {
 
 Affine power(Affine map, int exponent) {
@@ -55,10 +55,11 @@ Affine read_step(const Statement& s, std::size_t& at) {
 
 }  // namespace
 
-std::vector<Affine> read_transform(const Statement& s, std::size_t first, std::size_t most) {
+std::vector<Affine> read_transform(const Statement& s, std::size_t& at, std::size_t most) {
   // Steps act one after the other, from the left; those behind -i or -a, up to the next, together.
   std::vector<Affine> maps(1);
-  for (std::size_t at = first; at < s.size();) {
+  const auto more = [&] { return at < s.size() && s.word(at).starts_with('-'); };
+  while (more()) {
     const std::size_t opening = at;
     const bool array = s.word(at) == "-a", repeat = s.word(at) == "-i";
     int times = 1;
@@ -68,7 +69,7 @@ std::vector<Affine> read_transform(const Statement& s, std::size_t first, std::s
       at += 2;
     }
     Affine group;
-    while (at < s.size() && s.word(at) != "-a" && s.word(at) != "-i") {
+    while (more() && s.word(at) != "-a" && s.word(at) != "-i") {
       group = read_step(s, at) * group;
     }
     if (!array) {
@@ -91,4 +92,4 @@ std::vector<Affine> read_transform(const Statement& s, std::size_t first, std::s
   return maps;
 }
 
-}  // namespace isolux::mgf
+}  // namespace isolux

@@ -1,4 +1,4 @@
-#include "isolux/formats/mgf/face.h"
+#include "isolux/formats/face.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/triangle_mesh.h"
 
-namespace isolux::mgf {
+namespace isolux {
 namespace {
 
 constexpr std::size_t kMostCorners = 1000;  // of a Polygon
@@ -172,4 +172,4 @@ std::shared_ptr<const Shape> face_shape(const Region& region) {
   return std::make_shared<TriangleMesh>(std::move(corners), std::move(triangles));
 }
 
-}  // namespace isolux::mgf
+}  // namespace isolux

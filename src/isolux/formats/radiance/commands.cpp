@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include "isolux/formats/limits.h"
+#include "isolux/formats/radiance/expression.h"
+#include "isolux/formats/radiance/generators.h"
+#include "isolux/formats/radiance/reader.h"
+#include "isolux/formats/transform.h"
+#include "isolux/scene/spelling.h"
+
+namespace isolux::radiance {
+namespace {
+
+struct Generator {
+  std::string_view program;
+  std::vector<Surface> (*generate)(const Statement& s, Includes& includes);
+};
+
+constexpr Generator kGenerators[] = {
+    {"genbox", [](const Statement& s, Includes&) { return generate_box(s); }},
+    {"genprism", generate_prism},
+    {"genblinds", [](const Statement& s, Includes&) { return generate_blinds(s); }},
+    {"genrev", [](const Statement& s, Includes&) { return generate_revolution(s); }},
+    {"genworm", [](const Statement& s, Includes&) { return generate_worm(s); }},
+    {"gensurf", [](const Statement& s, Includes&) { return generate_surface(s); }},
+};
+
+const Generator* generator_named(std::string_view program) {
+  for (const Generator& generator : kGenerators) {
+    if (generator.program == program) return &generator;
+  }
+  return nullptr;
+}
+
+constexpr std::string_view kSkies[] = {"gensky", "gendaylit", "gendaymtx", "genutahsky",
+                                       "gensdaymtx"};
+
+}  // namespace
+
+void Reader::run(const Command& command, const Context& context) {
+  const auto skip = [&](std::size_t stage, std::string_view reason) {
+    const std::string name = clean_name(command.stages[stage].word(0));
+    notes_.add(fmt::format("command {} left out: {}", in_quotes(name), reason));
+  };
+  if (!command.plain) return skip(0, "it is written for a shell");
+  Context inner = context;
+  for (std::size_t i = command.stages.size(); i-- > 1;) {
+    const Statement& stage = command.stages[i];
+    if (stage.word(0) != "xform") return skip(i, "that program is not known");
+    std::size_t at = 1;
+    try {
+      inner = transformed(stage, at, inner);
+    } catch (const Unsupported& reason) {
+      return skip(i, reason.what + " is not known");
+    }
+    if (at < stage.size()) stage.fail(at, "here xform reads the output of the program before it");
+  }
+  const Statement& first = command.stages.front();
+  const std::string_view program = first.word(0);
+  for (const std::string_view sky : kSkies) {
+    if (program == sky) return skip(0, "there is no light from sun and sky");
+  }
+  if (program != "xform" && program != "cat" && !generator_named(program)) {
+    return skip(0, "that program is not known");
+  }
+  try {
+    run(first, inner);
+  } catch (const Unsupported& reason) {
+    skip(0, reason.what + " is not known");
+  }
+}
+
+void Reader::run(const Statement& program, const Context& context) {
+  const Generator* const generator = generator_named(program.word(0));
+  if (!generator) {
+    std::size_t at = 1;
+    const Context inner = program.word(0) == "xform" ? transformed(program, at, context) : context;
+    if (at == program.size()) program.fail(0, "here this program needs the name of a file");
+    for (; at < program.size(); ++at) read_file(program, at, inner);
+    return;
+  }
+  try {
+    const std::vector<Surface> surfaces = generator->generate(program, includes_);
+    const Finish& finish = materials_.finish_of(
+        context.modifier ? std::string_view(*context.modifier) : program.word(1));
+    for (const Surface& surface : surfaces) {
+      add_surface(surface, program.word(2), finish, context);
+    }
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).starts_with(program.location().file + ':')) throw;
+    program.fail(0, error.what());
+  }
+}
+
+Context Reader::transformed(const Statement& s, std::size_t& at, const Context& outer) {
+  Context inner = outer;
+  const auto argument = [&] {
+    if (at + 1 == s.size()) s.fail(at, fmt::format("{} needs a name", in_quotes(s.word(at))));
+    return std::string(s.word(++at));
+  };
+  std::optional<std::string> modifier;
+  for (; at < s.size(); ++at) {
+    const std::string_view option = s.word(at);
+    if (option == "-n") {
+      inner.prefix += argument() + '.';
+    } else if (option == "-m") {
+      const std::string name = argument();
+      if (!modifier) modifier = name;
+    } else if (option == "-I") {
+      inner.turned_over = !inner.turned_over;
+    } else if (option == "-f") {
+      throw Unsupported{"the option '-f'"};
+    } else if (option != "-e" && option != "-c") {  // when commands are done, not what they do
+      break;
+    }
+  }
+  if (!inner.modifier) inner.modifier = modifier;
+  return placed(s, at, inner);
+}
+
+Context Reader::placed(const Statement& s, std::size_t& at, const Context& outer) {
+  const std::size_t first = at;
+  const std::vector<Affine> maps = read_transform(s, at, kMostMaps / outer.maps.size());
+  maps_made_ += outer.maps.size() * maps.size();
+  if (maps_made_ > kMostMaps) {
+    s.fail(std::min(first, s.size() - 1),
+           "the arrays of this scene have too many instances; use fewer");
+  }
+  Context inner = outer;
+  inner.maps.clear();
+  for (const Affine& map : outer.maps) {
+    for (const Affine& local : maps) inner.maps.push_back(map * local);
+  }
+  return inner;
+}
+
+}  // namespace isolux::radiance

@@ -1,0 +1,199 @@
+#include "isolux/formats/radiance/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "isolux/core/error.h"
+#include "isolux/formats/default_camera.h"
+#include "isolux/formats/limits.h"
+#include "isolux/geometry/reversed.h"
+#include "isolux/scene/spelling.h"
+
+namespace isolux::radiance {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kWidestSun = 10;          ///< degrees: what still is directional light
+constexpr double kMostIlluminance = 1e15;  ///< lx
+
+[[noreturn]] void unknown_type(const Primitive& p) {
+  std::vector<std::string_view> known = modifier_types();
+  known.insert(known.end(), surface_types().begin(), surface_types().end());
+  known.insert(known.end(), {"source", "mesh", "instance"});
+  p.head.fail(1,
+              fmt::format("unknown type {}: {}", in_quotes(p.type()), suggestion(p.type(), known)));
+}
+
+}  // namespace
+
+Reader::Reader(const std::filesystem::path& file)
+    : file_(file), includes_(file, Includes::Base::main_file) {
+  result_.scene.name = file.stem().string();
+}
+
+void Reader::read(Scanner scanner, const Context& context) {
+  while (const auto item = scanner.next()) {
+    if (const auto* const command = std::get_if<Command>(&*item)) {
+      run(*command, context);
+    } else {
+      add(std::get<Primitive>(*item), context);
+    }
+  }
+}
+
+void Reader::read_file(const Statement& s, std::size_t i, const Context& context) {
+  SourceText source;
+  try {
+    source = includes_.open(s.word(i));
+  } catch (const InputError& error) {
+    s.fail(i, error.what());
+  }
+  read(Scanner(source), context);
+  includes_.close();
+}
+
+void Reader::add(const Primitive& p, const Context& context) {
+  if (is_modifier(p.type())) return materials_.define(p);
+  if (p.type() == "instance") return add_instance(p, context);
+  if (p.type() == "mesh")
+    return notes_.left_out("mesh", "the files of Radiance's meshes are not read");
+  const auto& types = surface_types();
+  const bool is_surface = std::find(types.begin(), types.end(), p.type()) != types.end();
+  if (!is_surface && p.type() != "source") unknown_type(p);
+  const Finish& finish =
+      materials_.finish_of(context.modifier ? std::string_view(*context.modifier) : p.modifier());
+  if (!is_surface) return add_source(p, finish, context);
+  const Surface surface = read_surface(p);
+  try {
+    add_surface(surface, p.name(), finish, context);
+  } catch (const InputError& error) {
+    p.head.fail(0, error.what());
+  }
+}
+
+void Reader::require_room(std::size_t count) {
+  surfaces_ += count;
+  if (surfaces_ <= kMostSurfaces) return;
+  throw InputError(fmt::format("the scene has more than {} surfaces", kMostSurfaces));
+}
+
+void Reader::add_surface(const Surface& surface, std::string_view name, const Finish& finish,
+                         const Context& context) {
+  if (!finish.solid) {
+    ++left_out_;
+    return;
+  }
+  require_room(surface.pieces * context.maps.size());
+  const auto corners = static_cast<double>(surface.corners);
+  corner_pairs_ += corners * corners * static_cast<double>(context.maps.size());
+  if (corner_pairs_ > kMostCornerPairs) {
+    throw InputError(
+        "the polygons of this scene have too many corners; cut them into smaller ones");
+  }
+  if (!surface.flat) {
+    notes_.add("polygons with corners off their plane: cut into flat triangles");
+  }
+  const bool emits = max_channel(finish.exitance) > 0;
+  const std::uint32_t material = material_number(finish);
+  for (const Affine& map : context.maps) {
+    Object object;
+    object.shape = surface.shape(map);
+    if (!object.shape) {
+      notes_.add("surfaces without area: left out");
+      continue;
+    }
+    if (context.turned_over) object.shape = std::make_shared<Reversed>(std::move(object.shape));
+    object.name = object_names_.next(clean_name(context.prefix + std::string(name)));
+    object.material = material;
+    object.exitance = finish.exitance;
+    object.sides = emits || object.shape->solid() ? Sides::front : Sides::both;
+    result_.scene.objects.push_back(std::move(object));
+  }
+}
+
+std::uint32_t Reader::material_number(const Finish& finish) {
+  const Rgb& r = finish.reflectance;
+  auto& materials = result_.scene.materials;
+  const auto [number, is_new] =
+      material_numbers_.try_emplace(fmt::format("{} {} {} {}", finish.name, r.r, r.g, r.b),
+                                    static_cast<std::uint32_t>(materials.size()));
+  if (is_new) materials.push_back({material_names_.next(finish.name), r});
+  return number->second;
+}
+
+void Reader::add_source(const Primitive& p, const Finish& finish, const Context& context) {
+  p.expect_numbers(4, 4, "x y z angle");
+  const Vec3 toward{p.number(0), p.number(1), p.number(2)};
+  const double angle = p.number(3);
+  if (!(length(normalized(toward)) > 0)) p.numbers.fail(1, "the direction must not be zero");
+  if (angle < 0 || angle > 360) p.numbers.fail(4, "the angle must lie between 0 and 360 degrees");
+  if (!(max_channel(finish.exitance) > 0) || angle == 0) {
+    return notes_.left_out("source", "where it gives no light");
+  }
+  if (angle > kWidestSun) {
+    return notes_.left_out("source", "wider than 10 degrees: there is no light from a sky");
+  }
+  const double solid_angle = 2 * pi * (1 - std::cos(0.5 * angle * pi / 180));
+  Source source;
+  source.kind = Source::Kind::directional;
+  source.intensity = finish.exitance * (solid_angle / pi);
+  if (!(max_channel(source.intensity) <= kMostIlluminance)) {
+    p.numbers.fail(0, fmt::format("more than {:g} lx would come from here", kMostIlluminance));
+  }
+  for (const Affine& map : context.maps) {
+    try {
+      require_room(1);
+    } catch (const InputError& error) {
+      p.head.fail(0, error.what());
+    }
+    source.name = object_names_.next(clean_name(context.prefix + std::string(p.name())));
+    source.direction = -normalized(map.vector(normalized(toward)));
+    result_.scene.sources.push_back(source);
+  }
+}
+
+/// Reads the description that stands beside an octree, with its extension .rad.
+void Reader::add_instance(const Primitive& p, const Context& context) {
+  if (p.strings.size() < 2) p.strings.fail(0, "an instance has the name of an octree");
+  std::size_t at = 2;
+  Context inner = placed(p.strings, at, context);
+  if (at < p.strings.size()) {
+    p.strings.fail(at, fmt::format("{} is no transform", in_quotes(p.strings.word(at))));
+  }
+  if (!inner.modifier && p.modifier() != "void") inner.modifier = std::string(p.modifier());
+  inner.prefix += std::string(p.name()) + '.';
+  const std::filesystem::path octree(p.strings.word(1));
+  SourceText source;
+  try {
+    source = includes_.open(std::filesystem::path(octree).replace_extension(".rad").string());
+  } catch (const InputError&) {
+    return notes_.left_out("instance",
+                           "octrees are not read, and no file of that name with the extension .rad "
+                           "stands beside");
+  }
+  read(Scanner(source), inner);
+  includes_.close();
+}
+
+SceneFile Reader::finish() {
+  Scene& scene = result_.scene;
+  if (scene.objects.empty()) {
+    throw InputError(
+        left_out_ == 0 ? "the scene has no surfaces"
+                       : fmt::format("none of the scene's {} surfaces reflects or shines, so that "
+                                     "all are left out",
+                                     left_out_));
+  }
+  if (scene.cameras.empty() || !has_own_view_) {
+    scene.cameras.insert(scene.cameras.begin(), default_camera(scene));
+  }
+  materials_.note_undefined();
+  result_.notes = notes_.lines();
+  return std::move(result_);
+}
+
+}  // namespace isolux::radiance
