@@ -117,9 +117,12 @@ TEST(WriteRadiance, LightIsRadianceOfThePublishedEfficacy) {
   double r = 0, g = 0, b = 0;
   ASSERT_EQ(std::sscanf(written.text.c_str(), "void light gray\n0\n0\n3 %lf %lf %lf", &r, &g, &b),
             3);
-  EXPECT_NEAR(r, 1, 1e-12);
+  // The luminance is 179 lm/W times 0.265 R + 0.670 G + 0.065 B, as Radiance weighs its channels.
+  EXPECT_NEAR(0.265 * r + 0.670 * g + 0.065 * b, 0.2126 * 1 + 0.0722 * 0.1, 1e-12);
   EXPECT_EQ(g, 0);
-  EXPECT_NEAR(b, 0.1, 1e-12);
+  EXPECT_NEAR(b, 0.1 * r, 1e-12);
+  scene.objects[0].exitance = gray(179 * std::numbers::pi);
+  EXPECT_THAT(write_radiance(scene).text, HasSubstr("void light gray\n0\n0\n3 1 1 1\n"));
   EXPECT_THAT(written.notes, ElementsAre("lights lose their reflectance"));
   scene.materials[0].reflectance = {};
   EXPECT_THAT(write_radiance(scene).notes, IsEmpty());

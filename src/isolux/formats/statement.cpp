@@ -8,6 +8,7 @@
 #include "isolux/scene/spelling.h"
 
 namespace isolux {
+
 void Statement::fail(std::size_t i, const std::string& message) const {
   throw InputError(location(i), message);
 }

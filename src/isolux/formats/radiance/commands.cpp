@@ -12,16 +12,20 @@ namespace {
 
 struct Generator {
   std::string_view program;
-  std::vector<Surface> (*generate)(const Statement& s, Includes& includes);
+  std::vector<Surface> (*generate)(const Statement& s, Includes& includes, double& effort);
 };
 
 constexpr Generator kGenerators[] = {
-    {"genbox", [](const Statement& s, Includes&) { return generate_box(s); }},
-    {"genprism", generate_prism},
-    {"genblinds", [](const Statement& s, Includes&) { return generate_blinds(s); }},
-    {"genrev", [](const Statement& s, Includes&) { return generate_revolution(s); }},
-    {"genworm", [](const Statement& s, Includes&) { return generate_worm(s); }},
-    {"gensurf", [](const Statement& s, Includes&) { return generate_surface(s); }},
+    {"genbox", [](const Statement& s, Includes&, double&) { return generate_box(s); }},
+    {"genprism",
+     [](const Statement& s, Includes& includes, double&) { return generate_prism(s, includes); }},
+    {"genblinds", [](const Statement& s, Includes&, double&) { return generate_blinds(s); }},
+    {"genrev",
+     [](const Statement& s, Includes&, double& effort) { return generate_revolution(s, effort); }},
+    {"genworm",
+     [](const Statement& s, Includes&, double& effort) { return generate_worm(s, effort); }},
+    {"gensurf",
+     [](const Statement& s, Includes&, double& effort) { return generate_surface(s, effort); }},
 };
 
 const Generator* generator_named(std::string_view program) {
@@ -42,13 +46,13 @@ void Reader::run(const Command& command, const Context& context) {
     notes_.add(fmt::format("command {} left out: {}", in_quotes(name), reason));
   };
   if (!command.plain) return skip(0, "it is written for a shell");
-  Context inner = context;
+  std::optional<Context> inner;
   for (std::size_t i = command.stages.size(); i-- > 1;) {
     const Statement& stage = command.stages[i];
     if (stage.word(0) != "xform") return skip(i, "that program is not known");
     std::size_t at = 1;
     try {
-      inner = transformed(stage, at, inner);
+      inner = transformed(stage, at, inner ? *inner : context);
     } catch (const Unsupported& reason) {
       return skip(i, reason.what + " is not known");
     }
@@ -63,7 +67,7 @@ void Reader::run(const Command& command, const Context& context) {
     return skip(0, "that program is not known");
   }
   try {
-    run(first, inner);
+    run(first, inner ? *inner : context);
   } catch (const Unsupported& reason) {
     skip(0, reason.what + " is not known");
   }
@@ -73,13 +77,14 @@ void Reader::run(const Statement& program, const Context& context) {
   const Generator* const generator = generator_named(program.word(0));
   if (!generator) {
     std::size_t at = 1;
-    const Context inner = program.word(0) == "xform" ? transformed(program, at, context) : context;
+    std::optional<Context> inner;
+    if (program.word(0) == "xform") inner = transformed(program, at, context);
     if (at == program.size()) program.fail(0, "here this program needs the name of a file");
-    for (; at < program.size(); ++at) read_file(program, at, inner);
+    for (; at < program.size(); ++at) read_file(program, at, inner ? *inner : context);
     return;
   }
   try {
-    const std::vector<Surface> surfaces = generator->generate(program, includes_);
+    const std::vector<Surface> surfaces = generator->generate(program, includes_, effort_);
     const Finish& finish = materials_.finish_of(
         context.modifier ? std::string_view(*context.modifier) : program.word(1));
     for (const Surface& surface : surfaces) {
@@ -92,7 +97,9 @@ void Reader::run(const Statement& program, const Context& context) {
 }
 
 Context Reader::transformed(const Statement& s, std::size_t& at, const Context& outer) {
-  Context inner = outer;
+  Context inner;
+  inner.turned_over = outer.turned_over;
+  inner.prefix = outer.prefix;
   const auto argument = [&] {
     if (at + 1 == s.size()) s.fail(at, fmt::format("{} needs a name", in_quotes(s.word(at))));
     return std::string(s.word(++at));
@@ -101,7 +108,7 @@ Context Reader::transformed(const Statement& s, std::size_t& at, const Context& 
   for (; at < s.size(); ++at) {
     const std::string_view option = s.word(at);
     if (option == "-n") {
-      inner.prefix += argument() + '.';
+      inner.prefix = inner.prefixed(argument()) + '.';
     } else if (option == "-m") {
       const std::string name = argument();
       if (!modifier) modifier = name;
@@ -113,24 +120,26 @@ Context Reader::transformed(const Statement& s, std::size_t& at, const Context& 
       break;
     }
   }
-  if (!inner.modifier) inner.modifier = modifier;
-  return placed(s, at, inner);
+  inner.modifier = outer.modifier ? outer.modifier : modifier;
+  inner.maps = placed(s, at, outer.maps);
+  return inner;
 }
 
-Context Reader::placed(const Statement& s, std::size_t& at, const Context& outer) {
+std::vector<Affine> Reader::placed(const Statement& s, std::size_t& at,
+                                   const std::vector<Affine>& outer) {
   const std::size_t first = at;
-  const std::vector<Affine> maps = read_transform(s, at, kMostMaps / outer.maps.size());
-  maps_made_ += outer.maps.size() * maps.size();
+  const std::vector<Affine> inner = read_transform(s, at, kMostMaps / outer.size());
+  maps_made_ += outer.size() * inner.size();
   if (maps_made_ > kMostMaps) {
     s.fail(std::min(first, s.size() - 1),
            "the arrays of this scene have too many instances; use fewer");
   }
-  Context inner = outer;
-  inner.maps.clear();
-  for (const Affine& map : outer.maps) {
-    for (const Affine& local : maps) inner.maps.push_back(map * local);
+  std::vector<Affine> maps;
+  maps.reserve(outer.size() * inner.size());
+  for (const Affine& map : outer) {
+    for (const Affine& local : inner) maps.push_back(map * local);
   }
-  return inner;
+  return maps;
 }
 
 }  // namespace isolux::radiance

@@ -11,7 +11,7 @@
 namespace isolux::radiance {
 namespace {
 
-constexpr double kMostEffort = 1e8;  ///< steps of all expressions of a command
+constexpr double kMostEffort = 1e8;  ///< steps of all expressions of a scene
 constexpr double kLevel = 1e-9;      ///< m: as good as no difference
 
 /// A word that says how many there are, which may be an expression.
@@ -29,12 +29,14 @@ std::vector<Expression> expressions(const Statement& s, std::size_t first, std::
   return list;
 }
 
-void require_effort(const Statement& s, const std::vector<Expression>& functions, double points) {
-  double effort = 0;
+void spend(const Statement& s, const std::vector<Expression>& functions, double points,
+           double& effort) {
   for (const Expression& function : functions) {
     effort += points * static_cast<double>(function.effort());
   }
-  if (effort > kMostEffort) s.fail(0, "these expressions take too long for so many points");
+  if (effort > kMostEffort) {
+    s.fail(0, "the expressions of this scene take too long for so many points");
+  }
 }
 
 /// Options from word i on: -s, and those of `more`.
@@ -51,10 +53,10 @@ bool read_options(const Statement& s, std::size_t i, std::string_view more = "")
 }
 
 /// The functions of t that the words from 3 on give, one column each, at the ends of all segments.
-std::vector<std::vector<double>> curve(const Statement& s, std::size_t functions) {
+std::vector<std::vector<double>> curve(const Statement& s, std::size_t functions, double& effort) {
   const auto list = expressions(s, 3, 3 + functions, {"t"});
   const int segments = count(s, 3 + functions);
-  require_effort(s, list, segments + 1.0);
+  spend(s, list, segments + 1.0, effort);
   std::vector<std::vector<double>> rows;
   for (int i = 0; i <= segments; ++i) {
     std::vector<double>& row = rows.emplace_back();
@@ -66,10 +68,10 @@ std::vector<std::vector<double>> curve(const Statement& s, std::size_t functions
 
 }  // namespace
 
-std::vector<Surface> generate_revolution(const Statement& s) {
+std::vector<Surface> generate_revolution(const Statement& s, double& effort) {
   s.expect_arguments(5, Statement::kAnyNumber, "genrev modifier name z(t) r(t) segments");
   read_options(s, 6);
-  const auto rows = curve(s, 2);
+  const auto rows = curve(s, 2, effort);
   std::vector<Surface> surfaces;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double z0 = rows[i - 1][0], z1 = rows[i][0];
@@ -88,11 +90,11 @@ std::vector<Surface> generate_revolution(const Statement& s) {
   return surfaces;
 }
 
-std::vector<Surface> generate_worm(const Statement& s) {
+std::vector<Surface> generate_worm(const Statement& s, double& effort) {
   s.expect_arguments(7, Statement::kAnyNumber,
                      "genworm modifier name x(t) y(t) z(t) r(t) segments");
   read_options(s, 8);
-  const auto rows = curve(s, 4);
+  const auto rows = curve(s, 4, effort);
   const auto point = [&](std::size_t i) { return Vec3{rows[i][0], rows[i][1], rows[i][2]}; };
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -112,7 +114,7 @@ std::vector<Surface> generate_worm(const Statement& s) {
   return surfaces;
 }
 
-std::vector<Surface> generate_surface(const Statement& s) {
+std::vector<Surface> generate_surface(const Statement& s, double& effort) {
   s.expect_arguments(7, Statement::kAnyNumber, "gensurf modifier name x(s,t) y(s,t) z(s,t) m n");
   const bool inward = read_options(s, 8, "-i");
   const auto functions = expressions(s, 3, 6, {"s", "t"});
@@ -120,7 +122,7 @@ std::vector<Surface> generate_surface(const Statement& s) {
   if (2.0 * m * n > kMostSurfaces) {
     s.fail(6, fmt::format("the surface has more than {} triangles", kMostSurfaces));
   }
-  require_effort(s, functions, (m + 1.0) * (n + 1.0));
+  spend(s, functions, (m + 1.0) * (n + 1.0), effort);
   std::vector<Vec3> points;
   for (int i = 0; i <= m; ++i) {
     for (int j = 0; j <= n; ++j) {

@@ -188,7 +188,7 @@ void PrismMaker::add_round() {
   for (std::size_t i = 0; i < sides(); ++i) {
     const std::size_t k = (i + 1) % n;
     // Where the prism leans, its sides touch the balls higher or lower.
-    const double lean = (r < 0 ? -1 : 1) * cross(back[k], along).z / length(along);
+    const double lean = (r < 0 ? -1 : 1) * cross(back[k], along).z / length(cross(back[k], along));
     const Vec3 out = cross(back[k], {0, 0, 1});
     const Vec3 shift = Vec3{0, 0, lean} + out * (std::sqrt(1 - lean * lean) - 1);
     const Vec3 p = corners[i] + (shift - back[k] * trims[i]) * r;
@@ -210,7 +210,7 @@ std::size_t read_corners(const Statement& s, Includes& includes, PrismMaker& pri
   constexpr int kMostCorners = 1000;
   const std::string_view source = s.word(3);
   if (source == "-") throw Unsupported{"corners from another program (-)"};
-  if (source[0] >= '0' && source[0] <= '9') {
+  if (!source.empty() && source[0] >= '0' && source[0] <= '9') {
     const auto count = static_cast<std::size_t>(s.integer(3, 3, kMostCorners));
     s.expect_arguments(3 + 2 * count, Statement::kAnyNumber, "x and y of every corner");
     read_corners(s, 4, 4 + 2 * count, prism);
@@ -225,7 +225,11 @@ std::size_t read_corners(const Statement& s, Includes& includes, PrismMaker& pri
   includes.close();
   Scanner scanner(file);
   std::vector<Statement::Word> words;
-  while (const auto word = scanner.word()) words.push_back(*word);
+  while (const auto word = scanner.word()) {
+    if (words.size() == 2 * kMostCorners)
+      s.fail(3, fmt::format("this file has more than {} corners", kMostCorners));
+    words.push_back(*word);
+  }
   const Statement numbers(file.file, std::move(words));
   read_corners(numbers, 0, numbers.size(), prism);
   if (prism.corners.size() < 3) s.fail(3, "this file has fewer than 3 corners, of x and y each");

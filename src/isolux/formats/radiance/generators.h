@@ -19,13 +19,13 @@ std::vector<Surface> generate_prism(const Statement& s, Includes& includes);
 /// genblinds mod name depth width height slats angle [-r radius | +r radius]
 std::vector<Surface> generate_blinds(const Statement& s);
 
-// Those that take expressions.
+// Those that take expressions. `effort` counts the steps that all of these of a scene take.
 
 /// genrev mod name z(t) r(t) segments [-s]: exact cones, cylinders and rings.
-std::vector<Surface> generate_revolution(const Statement& s);
+std::vector<Surface> generate_revolution(const Statement& s, double& effort);
 /// genworm mod name x(t) y(t) z(t) r(t) segments: exact cones joined by spheres.
-std::vector<Surface> generate_worm(const Statement& s);
+std::vector<Surface> generate_worm(const Statement& s, double& effort);
 /// gensurf mod name x(s,t) y(s,t) z(s,t) m n [-s] [-i]: one mesh.
-std::vector<Surface> generate_surface(const Statement& s);
+std::vector<Surface> generate_surface(const Statement& s, double& effort);
 
 }  // namespace isolux::radiance

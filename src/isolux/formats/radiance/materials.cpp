@@ -27,6 +27,7 @@ struct MaterialType {
   std::size_t transmission = 0;  ///< which of the numbers says how much goes in
 };
 
+constexpr std::size_t kMostModifiers = 1'000'000;
 constexpr std::size_t kAny = 1'000'000;
 constexpr std::string_view kCoated = "red green blue specularity roughness";
 constexpr std::string_view kAnyCoated = "red green blue specularity ...";
@@ -153,6 +154,9 @@ std::size_t Materials::require(std::string_view name) {
 }
 
 void Materials::define(const Primitive& p) {
+  if (modifiers_.size() > kMostModifiers) {
+    p.head.fail(0, fmt::format("the scene has more than {} modifiers", kMostModifiers));
+  }
   Modifier modifier;
   const std::string_view type = p.type();
   if (type == "alias") {

@@ -11,6 +11,9 @@ namespace isolux::radiance {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t kMostSettings = 100'000;
+constexpr std::string_view kNoPerspective = "views that are no plain perspectives: left out";
+
 /// A line "NAME= values" of a project.
 struct Setting {
   std::string name;  ///< in small letters
@@ -64,6 +67,8 @@ void Reader::read_project(const SourceText& source) {
   std::vector<Setting> settings;
   Scanner scanner(source);
   while (const auto line = scanner.line()) {
+    if (settings.size() == kMostSettings)
+      line->fail(0, fmt::format("more than {} settings", kMostSettings));
     if (auto setting = read_setting(source, *line)) settings.push_back(std::move(*setting));
   }
   // In the order in which rad hands the files on; those of OBJECTS the files of the scene name.
@@ -101,19 +106,16 @@ void Reader::read_project_view(const Statement& words, const Vec3& up) {
   if (words.size() > 0 && !words.word(0).starts_with('-'))
     view.name = clean_name(words.word(first++));
   read_view(words, first, includes_, view);
-  add_camera(view);
+  if (!add_camera(view)) notes_.add(std::string(kNoPerspective));
 }
 
-void Reader::add_camera(const View& view) {
+bool Reader::add_camera(const View& view) {
   constexpr std::size_t kMostCameras = 100;
   auto& cameras = result_.scene.cameras;
   const auto camera = camera_of(view);
-  if (!camera) {
-    notes_.add("views that are no plain perspectives: left out");
-  } else if (cameras.size() < kMostCameras) {
-    cameras.push_back(*camera);
-    has_own_view_ = true;
-  }
+  if (camera && cameras.size() < kMostCameras) cameras.push_back(*camera);
+  has_own_view_ |= camera.has_value();
+  return camera.has_value();
 }
 
 void Reader::add_view_files() {
@@ -134,22 +136,21 @@ void Reader::add_view_files() {
   std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
     return is_own(a) != is_own(b) ? is_own(a) : a < b;
   });
-  bool own = false;
+  bool own_view = false;
   for (const fs::path& file : files) {
+    std::optional<View> view;
     try {
       Includes includes(file_, Includes::Base::main_file);
-      const SourceText source = includes.open(file.string());
-      auto view = view_of_file(source, includes);
-      if (!view) continue;
-      view->name = clean_name(file.stem().string());
-      has_own_view_ = false;
-      add_camera(*view);
-      own |= has_own_view_ && is_own(file);
+      view = view_of_file(includes.open(file.string()), includes);
     } catch (const InputError&) {
-      notes_.add("view files beside the scene with what is no view: left out");
+      view.reset();  // others may stand here too
     }
+    if (view) view->name = clean_name(file.stem().string());
+    const bool added = view && add_camera(*view);
+    if (is_own(file) && !added) notes_.add(std::string(kNoPerspective));
+    own_view |= is_own(file) && added;
   }
-  has_own_view_ = own;
+  has_own_view_ = own_view;
 }
 
 }  // namespace isolux::radiance

@@ -30,6 +30,10 @@ constexpr double kMostIlluminance = 1e15;  ///< lx
 
 }  // namespace
 
+std::string Context::prefixed(std::string_view name) const {
+  return clean_name(prefix + std::string(name));
+}
+
 Reader::Reader(const std::filesystem::path& file)
     : file_(file), includes_(file, Includes::Base::main_file) {
   result_.scene.name = file.stem().string();
@@ -75,30 +79,32 @@ void Reader::add(const Primitive& p, const Context& context) {
   }
 }
 
-void Reader::require_room(std::size_t count) {
+/// Counts surfaces, and the corners of each: whether they are kept or not, they take time.
+void Reader::require_room(std::size_t count, std::size_t corners) {
   surfaces_ += count;
-  if (surfaces_ <= kMostSurfaces) return;
-  throw InputError(fmt::format("the scene has more than {} surfaces", kMostSurfaces));
-}
-
-void Reader::add_surface(const Surface& surface, std::string_view name, const Finish& finish,
-                         const Context& context) {
-  if (!finish.solid) {
-    ++left_out_;
-    return;
+  if (surfaces_ > kMostSurfaces) {
+    throw InputError(fmt::format("the scene has more than {} surfaces", kMostSurfaces));
   }
-  require_room(surface.pieces * context.maps.size());
-  const auto corners = static_cast<double>(surface.corners);
-  corner_pairs_ += corners * corners * static_cast<double>(context.maps.size());
+  corner_pairs_ += static_cast<double>(corners) * static_cast<double>(corners * count);
   if (corner_pairs_ > kMostCornerPairs) {
     throw InputError(
         "the polygons of this scene have too many corners; cut them into smaller ones");
+  }
+}
+
+void Reader::add_surface(const Surface& surface, std::string_view word, const Finish& finish,
+                         const Context& context) {
+  require_room(surface.pieces * context.maps.size(), surface.corners);
+  if (!finish.solid) {
+    ++left_out_;
+    return;
   }
   if (!surface.flat) {
     notes_.add("polygons with corners off their plane: cut into flat triangles");
   }
   const bool emits = max_channel(finish.exitance) > 0;
   const std::uint32_t material = material_number(finish);
+  const std::string name = context.prefixed(word);
   for (const Affine& map : context.maps) {
     Object object;
     object.shape = surface.shape(map);
@@ -107,7 +113,7 @@ void Reader::add_surface(const Surface& surface, std::string_view name, const Fi
       continue;
     }
     if (context.turned_over) object.shape = std::make_shared<Reversed>(std::move(object.shape));
-    object.name = object_names_.next(clean_name(context.prefix + std::string(name)));
+    object.name = object_names_.next(name);
     object.material = material;
     object.exitance = finish.exitance;
     object.sides = emits || object.shape->solid() ? Sides::front : Sides::both;
@@ -144,13 +150,13 @@ void Reader::add_source(const Primitive& p, const Finish& finish, const Context&
   if (!(max_channel(source.intensity) <= kMostIlluminance)) {
     p.numbers.fail(0, fmt::format("more than {:g} lx would come from here", kMostIlluminance));
   }
+  try {
+    require_room(context.maps.size(), 0);
+  } catch (const InputError& error) {
+    p.head.fail(0, error.what());
+  }
   for (const Affine& map : context.maps) {
-    try {
-      require_room(1);
-    } catch (const InputError& error) {
-      p.head.fail(0, error.what());
-    }
-    source.name = object_names_.next(clean_name(context.prefix + std::string(p.name())));
+    source.name = object_names_.next(context.prefixed(p.name()));
     source.direction = -normalized(map.vector(normalized(toward)));
     result_.scene.sources.push_back(source);
   }
@@ -160,12 +166,15 @@ void Reader::add_source(const Primitive& p, const Finish& finish, const Context&
 void Reader::add_instance(const Primitive& p, const Context& context) {
   if (p.strings.size() < 2) p.strings.fail(0, "an instance has the name of an octree");
   std::size_t at = 2;
-  Context inner = placed(p.strings, at, context);
+  Context inner;
+  inner.maps = placed(p.strings, at, context.maps);
   if (at < p.strings.size()) {
     p.strings.fail(at, fmt::format("{} is no transform", in_quotes(p.strings.word(at))));
   }
+  inner.turned_over = context.turned_over;
+  inner.prefix = context.prefixed(p.name()) + '.';
+  inner.modifier = context.modifier;
   if (!inner.modifier && p.modifier() != "void") inner.modifier = std::string(p.modifier());
-  inner.prefix += std::string(p.name()) + '.';
   const std::filesystem::path octree(p.strings.word(1));
   SourceText source;
   try {

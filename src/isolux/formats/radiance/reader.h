@@ -22,6 +22,8 @@ struct Context {
   bool turned_over = false;
   std::string prefix;                   ///< of names, "desk."
   std::optional<std::string> modifier;  ///< of all surfaces, in place of their own
+
+  std::string prefixed(std::string_view name) const;
 };
 
 /// Reads the primitives and commands of a file and of those that it refers to into a scene.
@@ -42,11 +44,11 @@ class Reader {
   void read(Scanner scanner, const Context& context);
   void read_file(const Statement& s, std::size_t i, const Context& context);
   void add(const Primitive& primitive, const Context& context);
-  void add_surface(const Surface& surface, std::string_view name, const Finish& finish,
+  void add_surface(const Surface& surface, std::string_view word, const Finish& finish,
                    const Context& context);
   void add_source(const Primitive& primitive, const Finish& finish, const Context& context);
   void add_instance(const Primitive& primitive, const Context& context);
-  void require_room(std::size_t count);
+  void require_room(std::size_t count, std::size_t corners);
   std::uint32_t material_number(const Finish& finish);
 
   // Commands, in commands.cpp.
@@ -54,13 +56,14 @@ class Reader {
   void run(const Statement& program, const Context& context);
   /// The context of what xform reads; `at` moves behind its options.
   Context transformed(const Statement& xform, std::size_t& at, const Context& outer);
-  /// The context, each of its maps behind the transform from word `at` on, which moves behind it.
-  Context placed(const Statement& s, std::size_t& at, const Context& outer);
+  /// The maps, each behind the transform from word `at` on, which moves behind it.
+  std::vector<Affine> placed(const Statement& s, std::size_t& at, const std::vector<Affine>& outer);
 
   // Projects and views, in project.cpp.
   void read_project_files(const SourceText& source, const Statement& names);
   void read_project_view(const Statement& words, const Vec3& up);
-  void add_camera(const View& view);
+  /// Whether the view is one that a camera can have.
+  bool add_camera(const View& view);
 
   std::filesystem::path file_;
   Includes includes_;
@@ -71,7 +74,7 @@ class Reader {
   std::unordered_map<std::string, std::uint32_t> material_numbers_;  ///< by name and reflectance
   std::size_t left_out_ = 0;                                         ///< surfaces
   std::size_t surfaces_ = 0, maps_made_ = 0;
-  double corner_pairs_ = 0;
+  double corner_pairs_ = 0, effort_ = 0;
   bool has_own_view_ = false;  ///< a view of the scene's own name, or of its project
 };
 

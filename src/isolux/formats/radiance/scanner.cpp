@@ -10,6 +10,7 @@ namespace isolux::radiance {
 namespace {
 
 constexpr std::size_t kMostArguments = 1'000'000;
+constexpr std::size_t kLongestWord = 4000;
 constexpr std::string_view kBlanks = " \t\f\v\r\n";
 constexpr std::string_view kShellSigns = "<>;&$`()*?[]{}~";  ///< with a meaning for a shell
 
@@ -62,6 +63,20 @@ void Scanner::pass_blanks_in_line() {
   }
 }
 
+Statement::Word Scanner::checked(const Statement::Word& word) const {
+  if (word.text.size() <= kLongestWord) return word;
+  throw InputError({source_.file, word.line, word.column},
+                   fmt::format("a word has at most {} characters", kLongestWord));
+}
+
+void Scanner::add_to(std::vector<Statement::Word>& words, const Statement::Word& word) const {
+  if (words.size() == kMostArguments) {
+    throw InputError({source_.file, word.line, word.column},
+                     fmt::format("a line has at most {} words", kMostArguments));
+  }
+  words.push_back(word);
+}
+
 Statement::Word Scanner::quoted() {
   const char quote = text_[at_];
   const SourceLocation start{source_.file, line_, column_};
@@ -72,7 +87,7 @@ Statement::Word Scanner::quoted() {
   if (at_end()) throw InputError(start, "this quote is not closed");
   word.text = text_.substr(begin, at_ - begin);
   step();
-  return word;
+  return checked(word);
 }
 
 Statement::Word Scanner::bare(std::string_view ends) {
@@ -80,7 +95,7 @@ Statement::Word Scanner::bare(std::string_view ends) {
   const std::size_t begin = at_;
   while (!at_end() && ends.find(text_[at_]) == ends.npos) step();
   word.text = text_.substr(begin, at_ - begin);
-  return word;
+  return checked(word);
 }
 
 std::optional<Statement::Word> Scanner::word() {
@@ -94,7 +109,7 @@ std::optional<Statement> Scanner::line() {
   pass_blanks_in_line();
   if (at_end()) return std::nullopt;
   for (; !at_end() && !at_line_end(); pass_blanks_in_line()) {
-    words.push_back(text_[at_] == '"' || text_[at_] == '\'' ? quoted() : bare(kBlanks));
+    add_to(words, text_[at_] == '"' || text_[at_] == '\'' ? quoted() : bare(kBlanks));
   }
   if (!at_end()) step();
   return Statement(source_.file, std::move(words));
@@ -115,7 +130,7 @@ Command Scanner::command() {
       end_stage();
       step();
     } else if (text_[at_] == '"' || text_[at_] == '\'') {
-      words.push_back(quoted());
+      add_to(words, quoted());
       // A shell would join what follows without a blank.
       command.plain &= at_end() || text_[at_] == '|' || kBlanks.find(text_[at_]) != kBlanks.npos;
     } else {
@@ -123,7 +138,7 @@ Command Scanner::command() {
       const bool signs = word.text.find_first_of(kShellSigns) != word.text.npos;
       const bool joined = word.text.find_first_of("\"'\\") != word.text.npos;
       command.plain &= !signs && !joined;
-      words.push_back(word);
+      add_to(words, word);
     }
   }
   end_stage();

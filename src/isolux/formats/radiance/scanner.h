@@ -58,6 +58,8 @@ class Scanner {
   void pass_blanks_in_line();
   Statement::Word quoted();
   Statement::Word bare(std::string_view ends);
+  Statement::Word checked(const Statement::Word& word) const;
+  void add_to(std::vector<Statement::Word>& words, const Statement::Word& word) const;
   Command command();
   Primitive primitive();
   Statement::Word required_word(const Statement::Word& after, std::string_view what);
