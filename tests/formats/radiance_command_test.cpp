@@ -54,6 +54,12 @@ TEST(RadianceCommand, RoundedBoxesAreRound) {
   expect_near(bounds_of(box).upper, {2, 3, 4});
 }
 
+TEST(RadianceCommand, RoundedRoomsStaySharp) {
+  const SceneFile file = read_radiance_text(kGray + "!genbox m room 2 3 4 -r .25 -i\n");
+  EXPECT_NEAR(volume_of(file.scene.objects), -24, 1e-12);
+  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("stay sharp")));
+}
+
 TEST(RadianceCommand, Prisms) {
   const auto prism = gray_objects("!genprism m p 3  0 0  0 1  1 0  -l 0 0 2\n");
   EXPECT_EQ(prism.size(), 5u);

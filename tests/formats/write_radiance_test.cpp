@@ -122,7 +122,11 @@ TEST(WriteRadiance, LightIsRadianceOfThePublishedEfficacy) {
   EXPECT_EQ(g, 0);
   EXPECT_NEAR(b, 0.1 * r, 1e-12);
   scene.objects[0].exitance = gray(179 * std::numbers::pi);
-  EXPECT_THAT(write_radiance(scene).text, HasSubstr("void light gray\n0\n0\n3 1 1 1\n"));
+  const std::string white = write_radiance(scene).text;
+  ASSERT_EQ(std::sscanf(white.c_str(), "void light gray\n0\n0\n3 %lf %lf %lf", &r, &g, &b), 3);
+  EXPECT_NEAR(r, 1, 1e-12);
+  EXPECT_EQ(r, g);
+  EXPECT_EQ(r, b);
   EXPECT_THAT(written.notes, ElementsAre("lights lose their reflectance"));
   scene.materials[0].reflectance = {};
   EXPECT_THAT(write_radiance(scene).notes, IsEmpty());

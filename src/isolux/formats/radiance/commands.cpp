@@ -12,20 +12,12 @@ namespace {
 
 struct Generator {
   std::string_view program;
-  std::vector<Surface> (*generate)(const Statement& s, Includes& includes, double& effort);
+  std::vector<Surface> (*generate)(const Statement& s, Surroundings& around);
 };
 
 constexpr Generator kGenerators[] = {
-    {"genbox", [](const Statement& s, Includes&, double&) { return generate_box(s); }},
-    {"genprism",
-     [](const Statement& s, Includes& includes, double&) { return generate_prism(s, includes); }},
-    {"genblinds", [](const Statement& s, Includes&, double&) { return generate_blinds(s); }},
-    {"genrev",
-     [](const Statement& s, Includes&, double& effort) { return generate_revolution(s, effort); }},
-    {"genworm",
-     [](const Statement& s, Includes&, double& effort) { return generate_worm(s, effort); }},
-    {"gensurf",
-     [](const Statement& s, Includes&, double& effort) { return generate_surface(s, effort); }},
+    {"genbox", generate_box},        {"genprism", generate_prism}, {"genblinds", generate_blinds},
+    {"genrev", generate_revolution}, {"genworm", generate_worm},   {"gensurf", generate_surface},
 };
 
 const Generator* generator_named(std::string_view program) {
@@ -84,7 +76,7 @@ void Reader::run(const Statement& program, const Context& context) {
     return;
   }
   try {
-    const std::vector<Surface> surfaces = generator->generate(program, includes_, effort_);
+    const std::vector<Surface> surfaces = generator->generate(program, around_);
     const Finish& finish = materials_.finish_of(
         context.modifier ? std::string_view(*context.modifier) : program.word(1));
     for (const Surface& surface : surfaces) {

@@ -40,12 +40,14 @@ void spend(const Statement& s, const std::vector<Expression>& functions, double 
 }
 
 /// Options from word i on: -s, and those of `more`.
-bool read_options(const Statement& s, std::size_t i, std::string_view more = "") {
+bool read_options(const Statement& s, std::size_t i, Notes& notes, std::string_view more = "") {
   bool found = false;
   for (; i < s.size(); ++i) {
     if (s.word(i) == more) {
       found = true;
-    } else if (s.word(i) != "-s") {
+    } else if (s.word(i) == "-s") {
+      notes.left_out("-s", "surfaces made of pieces are not smoothed");
+    } else {
       throw Unsupported{fmt::format("the option {}", in_quotes(s.word(i)))};
     }
   }
@@ -68,10 +70,10 @@ std::vector<std::vector<double>> curve(const Statement& s, std::size_t functions
 
 }  // namespace
 
-std::vector<Surface> generate_revolution(const Statement& s, double& effort) {
+std::vector<Surface> generate_revolution(const Statement& s, Surroundings& around) {
   s.expect_arguments(5, Statement::kAnyNumber, "genrev modifier name z(t) r(t) segments");
-  read_options(s, 6);
-  const auto rows = curve(s, 2, effort);
+  read_options(s, 6, around.notes);
+  const auto rows = curve(s, 2, around.effort);
   std::vector<Surface> surfaces;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double z0 = rows[i - 1][0], z1 = rows[i][0];
@@ -90,11 +92,11 @@ std::vector<Surface> generate_revolution(const Statement& s, double& effort) {
   return surfaces;
 }
 
-std::vector<Surface> generate_worm(const Statement& s, double& effort) {
+std::vector<Surface> generate_worm(const Statement& s, Surroundings& around) {
   s.expect_arguments(7, Statement::kAnyNumber,
                      "genworm modifier name x(t) y(t) z(t) r(t) segments");
-  read_options(s, 8);
-  const auto rows = curve(s, 4, effort);
+  read_options(s, 8, around.notes);
+  const auto rows = curve(s, 4, around.effort);
   const auto point = [&](std::size_t i) { return Vec3{rows[i][0], rows[i][1], rows[i][2]}; };
   std::vector<Surface> surfaces;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -114,15 +116,15 @@ std::vector<Surface> generate_worm(const Statement& s, double& effort) {
   return surfaces;
 }
 
-std::vector<Surface> generate_surface(const Statement& s, double& effort) {
+std::vector<Surface> generate_surface(const Statement& s, Surroundings& around) {
   s.expect_arguments(7, Statement::kAnyNumber, "gensurf modifier name x(s,t) y(s,t) z(s,t) m n");
-  const bool inward = read_options(s, 8, "-i");
+  const bool inward = read_options(s, 8, around.notes, "-i");
   const auto functions = expressions(s, 3, 6, {"s", "t"});
   const int m = count(s, 6), n = count(s, 7);
   if (2.0 * m * n > kMostSurfaces) {
     s.fail(6, fmt::format("the surface has more than {} triangles", kMostSurfaces));
   }
-  spend(s, functions, (m + 1.0) * (n + 1.0), effort);
+  spend(s, functions, (m + 1.0) * (n + 1.0), around.effort);
   std::vector<Vec3> points;
   for (int i = 0; i <= m; ++i) {
     for (int j = 0; j <= n; ++j) {

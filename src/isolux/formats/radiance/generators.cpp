@@ -93,7 +93,7 @@ void add_rounding(BoxMaker& box) {
 
 }  // namespace
 
-std::vector<Surface> generate_box(const Statement& s) {
+std::vector<Surface> generate_box(const Statement& s, Surroundings& around) {
   s.expect_arguments(5, Statement::kAnyNumber, "genbox modifier name x y z");
   BoxMaker box{{positive(s, 3), positive(s, 4), positive(s, 5)}, 0, false, {}};
   bool round = false;
@@ -114,7 +114,10 @@ std::vector<Surface> generate_box(const Statement& s) {
       unknown_option(s, i);
     }
   }
-  if (round && box.inward) throw Unsupported{"round edges seen from within (-r with -i)"};
+  if (round && box.inward) {
+    around.notes.changed("genbox -i -r", "edges that are round from within stay sharp");
+    box.inset = 0;
+  }
   add_faces(box);
   if (box.inset > 0) round ? add_rounding(box) : add_bevels(box);
   return std::move(box.surfaces);
@@ -188,7 +191,8 @@ void PrismMaker::add_round() {
   for (std::size_t i = 0; i < sides(); ++i) {
     const std::size_t k = (i + 1) % n;
     // Where the prism leans, its sides touch the balls higher or lower.
-    const double lean = (r < 0 ? -1 : 1) * cross(back[k], along).z / length(cross(back[k], along));
+    const Vec3 tilted = cross(back[k], high - low);
+    const double lean = (r < 0 ? -1 : 1) * tilted.z / length(tilted);
     const Vec3 out = cross(back[k], {0, 0, 1});
     const Vec3 shift = Vec3{0, 0, lean} + out * (std::sqrt(1 - lean * lean) - 1);
     const Vec3 p = corners[i] + (shift - back[k] * trims[i]) * r;
@@ -238,10 +242,10 @@ std::size_t read_corners(const Statement& s, Includes& includes, PrismMaker& pri
 
 }  // namespace
 
-std::vector<Surface> generate_prism(const Statement& s, Includes& includes) {
+std::vector<Surface> generate_prism(const Statement& s, Surroundings& around) {
   s.expect_arguments(3, Statement::kAnyNumber, "genprism modifier name N x1 y1 ... xN yN");
   PrismMaker prism;
-  for (std::size_t i = read_corners(s, includes, prism); i < s.size(); ++i) {
+  for (std::size_t i = read_corners(s, around.includes, prism); i < s.size(); ++i) {
     const std::string_view option = s.word(i);
     if (option == "-l") {
       if (i + 3 >= s.size()) s.fail(i, "'-l' needs 3 numbers");
@@ -266,7 +270,7 @@ std::vector<Surface> generate_prism(const Statement& s, Includes& includes) {
   return std::move(prism.surfaces);
 }
 
-std::vector<Surface> generate_blinds(const Statement& s) {
+std::vector<Surface> generate_blinds(const Statement& s, Surroundings&) {
   s.expect_arguments(7, 9, "genblinds modifier name depth width height slats angle [-r radius]");
   constexpr int kMostSlats = 10'000;
   constexpr double kStrip = 3 * pi / 180;  ///< most of the arc that a flat strip stands for

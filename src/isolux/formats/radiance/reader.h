@@ -8,9 +8,9 @@
 #include "isolux/formats/include_path.h"
 #include "isolux/formats/notes.h"
 #include "isolux/formats/object_names.h"
+#include "isolux/formats/radiance/generators.h"
 #include "isolux/formats/radiance/materials.h"
 #include "isolux/formats/radiance/scanner.h"
-#include "isolux/formats/radiance/surfaces.h"
 #include "isolux/formats/radiance/view.h"
 #include "isolux/formats/scene_file.h"
 
@@ -68,13 +68,14 @@ class Reader {
   std::filesystem::path file_;
   Includes includes_;
   Notes notes_;
+  Surroundings around_{includes_, notes_};
   Materials materials_{notes_};
   SceneFile result_;
   NumberedNames object_names_, material_names_;
   std::unordered_map<std::string, std::uint32_t> material_numbers_;  ///< by name and reflectance
   std::size_t left_out_ = 0;                                         ///< surfaces
   std::size_t surfaces_ = 0, maps_made_ = 0;
-  double corner_pairs_ = 0, effort_ = 0;
+  double corner_pairs_ = 0;
   bool has_own_view_ = false;  ///< a view of the scene's own name, or of its project
 };
 
