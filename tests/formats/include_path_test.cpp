@@ -37,6 +37,18 @@ TEST(IncludePath, NamesAreRelativeToTheFileThatHasThem) {
   EXPECT_EQ(includes.open("third").text, "3");
 }
 
+TEST(IncludePath, NamesMayAllBeRelativeToTheMainFile) {
+  const TemporaryFolder folder;
+  const fs::path main = folder.write("main", "");
+  folder.write("a/first", "1");
+  folder.write("second", "2");
+  folder.write("a/second", "wrong");
+  Includes includes(main, Includes::Base::main_file);
+  EXPECT_EQ(includes.open("a/first").text, "1");
+  EXPECT_EQ(includes.open("second").text, "2");
+  EXPECT_THAT(refusal(includes, "../secret"), HasSubstr("outside the folder"));
+}
+
 TEST(IncludePath, NothingOutsideTheFolderIsRead) {
   const TemporaryFolder folder;
   const fs::path main = folder.write("scene/main", "");

@@ -15,13 +15,17 @@ TEST(SceneFile, TheFormatIsThatOfTheExtensionOrAsAskedFor) {
   EXPECT_EQ(load_scene_file(folder.write("ball.mgf", kBall)).scene.name, "ball");
   EXPECT_EQ(load_scene_file(folder.write("BALL.MGF", kBall)).scene.name, "BALL");
   EXPECT_EQ(load_scene_file(folder.write("ball.txt", kBall), "mgf").scene.name, "ball");
+  const std::string ball = "void sphere s 0 0 4 0 0 0 1\na sphere s 0 0 4 0 0 0 1\n";
+  EXPECT_EQ(load_scene_file(folder.write("round.rad", ball)).scene.name, "round");
+  EXPECT_EQ(load_scene_file(folder.write("bare", ball), "radiance").scene.name, "bare");
+  EXPECT_EQ(load_scene_file(folder.write("all.rif", "scene= bare\n")).scene.name, "all");
   EXPECT_THROW(load_scene_file(folder.path() / "ball.mgf", "isolux"), InputError);
   EXPECT_THROW(load_scene_file(folder.path() / "ball.mgf", "fgm"), InputError);
   EXPECT_THROW(load_scene_file(folder.path() / "missing.mgf"), InputError);
 }
 
 TEST(SceneFile, FormatsHaveNames) {
-  EXPECT_THAT(format_names(), testing::IsSupersetOf({"isolux", "mgf"}));
+  EXPECT_THAT(format_names(), testing::IsSupersetOf({"isolux", "mgf", "radiance", "rayshade"}));
 }
 
 }  // namespace

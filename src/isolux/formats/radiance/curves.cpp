@@ -11,8 +11,9 @@
 namespace isolux::radiance {
 namespace {
 
-constexpr double kMostEffort = 1e8;  ///< steps of all expressions of a scene
-constexpr double kLevel = 1e-9;      ///< m: as good as no difference
+constexpr double kMostEffort = 1e8;    ///< steps of all expressions of a scene
+constexpr std::size_t kOverhead = 10;  ///< of an expression at a point, in steps
+constexpr double kLevel = 1e-9;        ///< m: as good as no difference
 
 /// A word that says how many there are, which may be an expression.
 int count(const Statement& s, std::size_t i) {
@@ -32,7 +33,7 @@ std::vector<Expression> expressions(const Statement& s, std::size_t first, std::
 void spend(const Statement& s, const std::vector<Expression>& functions, double points,
            double& effort) {
   for (const Expression& function : functions) {
-    effort += points * static_cast<double>(function.effort());
+    effort += points * static_cast<double>(kOverhead + function.effort());
   }
   if (effort > kMostEffort) {
     s.fail(0, "the expressions of this scene take too long for so many points");

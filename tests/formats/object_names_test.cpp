@@ -1,0 +1,23 @@
+#include "isolux/formats/object_names.h"
+
+#include <gtest/gtest.h>
+
+namespace isolux {
+namespace {
+
+TEST(ObjectNames, AreShortAndPrintable) {
+  EXPECT_EQ(clean_name("desk.leg"), "desk.leg");
+  EXPECT_EQ(clean_name("a\tb\xff"), "a?b?");
+  EXPECT_EQ(clean_name(std::string(1000, 'x')), std::string(60, 'x'));
+}
+
+TEST(ObjectNames, AreNumberedWhereTheyRepeat) {
+  NumberedNames names;
+  EXPECT_EQ(names.next("wall"), "wall");
+  EXPECT_EQ(names.next("door"), "door");
+  EXPECT_EQ(names.next("wall"), "wall 2");
+  EXPECT_EQ(names.next("wall"), "wall 3");
+}
+
+}  // namespace
+}  // namespace isolux
