@@ -36,7 +36,7 @@ TEST(RadianceProject, NamesTheFilesAndViewsOfAScene) {
   folder.write("side.vf", "VIEW= -vtv -vp 9 9 9 -vd -1 -1 -1\n");
   const SceneFile file =
       read_radiance(folder.write("room.rif",
-                                 "# a project\n"
+                                 "# a project,\n# 'tis said\n"
                                  "materials= mats.rad # first of all\n"
                                  "scene = parts/table \\\n"
                                  "  '!genbox m crate 1 1 1 | xform -t 9 0 0'\n"

@@ -41,6 +41,7 @@ void Reader::run(const Command& command, const Context& context) {
   std::optional<Context> inner;
   for (std::size_t i = command.stages.size(); i-- > 1;) {
     const Statement& stage = command.stages[i];
+    if (generator_named(stage.word(0))) return skip(i, "it takes what another program writes");
     if (stage.word(0) != "xform") return skip(i, "that program is not known");
     std::size_t at = 1;
     try {

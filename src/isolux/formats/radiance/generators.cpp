@@ -213,7 +213,7 @@ void read_corners(const Statement& s, std::size_t first, std::size_t end, PrismM
 std::size_t read_corners(const Statement& s, Includes& includes, PrismMaker& prism) {
   constexpr int kMostCorners = 1000;
   const std::string_view source = s.word(3);
-  if (source == "-") throw Unsupported{"corners from another program (-)"};
+  if (source == "-") throw Unsupported{"what another program writes (-)"};
   if (!source.empty() && source[0] >= '0' && source[0] <= '9') {
     const auto count = static_cast<std::size_t>(s.integer(3, 3, kMostCorners));
     s.expect_arguments(3 + 2 * count, Statement::kAnyNumber, "x and y of every corner");

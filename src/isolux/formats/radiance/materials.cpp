@@ -161,7 +161,9 @@ void Materials::define(const Primitive& p) {
   const std::string_view type = p.type();
   if (type == "alias") {
     modifier = modifiers_[require(p.strings.word(1))];
-    if (p.modifier() != "inherit" && listed(kPatterns, modifier.type).size() > 0) {
+    const bool looked_through =
+        !listed(kPatterns, modifier.type).empty() || !listed(kTextures, modifier.type).empty();
+    if (looked_through && p.modifier() != "inherit") {
       modifier.next = require(p.modifier());
       modifier.finish = modifiers_[modifier.next].finish;
     }

@@ -27,7 +27,7 @@ bool names(const std::string& name, std::string_view variable) {
 
 std::optional<Setting> read_setting(const SourceText& source, const Statement& line) {
   std::vector<Statement::Word> words;
-  for (std::size_t i = 0; i < line.size() && !line.word(i).starts_with('#'); ++i) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
     const SourceLocation at = line.location(i);
     words.push_back({line.word(i), at.line, at.column});
   }

@@ -63,8 +63,7 @@ void Reader::read_file(const Statement& s, std::size_t i, const Context& context
 void Reader::add(const Primitive& p, const Context& context) {
   if (is_modifier(p.type())) return materials_.define(p);
   if (p.type() == "instance") return add_instance(p, context);
-  if (p.type() == "mesh")
-    return notes_.left_out("mesh", "the files of Radiance's meshes are not read");
+  if (p.type() == "mesh") return notes_.left_out("mesh", "such files of triangles are not read");
   const auto& types = surface_types();
   const bool is_surface = std::find(types.begin(), types.end(), p.type()) != types.end();
   if (!is_surface && p.type() != "source") unknown_type(p);

@@ -109,6 +109,10 @@ std::optional<Statement> Scanner::line() {
   pass_blanks_in_line();
   if (at_end()) return std::nullopt;
   for (; !at_end() && !at_line_end(); pass_blanks_in_line()) {
+    if (text_[at_] == '#') {
+      while (!at_end() && !at_line_end()) step();
+      break;
+    }
     add_to(words, text_[at_] == '"' || text_[at_] == '\'' ? quoted() : bare(kBlanks));
   }
   if (!at_end()) step();

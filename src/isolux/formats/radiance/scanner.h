@@ -45,8 +45,8 @@ class Scanner {
   std::optional<std::variant<Primitive, Command>> next();
   /// The next word, a text in quotes being one; nothing at the end. '#' begins a comment.
   std::optional<Statement::Word> word();
-  /// The words of the rest of the line, '\' at its end announcing that it goes on. Nothing where
-  /// the text has ended.
+  /// The words of the rest of the line, without comments, '\' at its end announcing that it goes
+  /// on. Nothing where the text has ended.
   std::optional<Statement> line();
 
  private:

@@ -60,7 +60,6 @@ std::optional<View> view_of_file(const SourceText& source, Includes& includes) {
   std::optional<View> last;
   Scanner scanner(source);
   while (const auto line = scanner.line()) {
-    if (line->size() < 2 || line->word(0).starts_with('#')) continue;
     bool views = false;
     for (std::size_t i = 1; i < line->size(); ++i) views |= line->word(i).starts_with("-v");
     if (!views) continue;
