@@ -8,7 +8,7 @@
 #include "isolux/formats/colorimetry.h"
 #include "isolux/formats/default_camera.h"
 #include "isolux/formats/limits.h"
-#include "isolux/formats/mgf/statement_reader.h"
+#include "isolux/formats/statement_reader.h"
 #include "isolux/formats/transform.h"
 #include "isolux/geometry/require.h"
 

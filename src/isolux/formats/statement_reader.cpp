@@ -1,6 +1,6 @@
-#include "isolux/formats/mgf/statement_reader.h"
+#include "isolux/formats/statement_reader.h"
 
-namespace isolux::mgf {
+namespace isolux {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
@@ -52,4 +52,4 @@ std::optional<Statement> StatementReader::next() {
   }
 }
 
-}  // namespace isolux::mgf
+}  // namespace isolux

@@ -3,7 +3,7 @@
 #include "isolux/formats/include_path.h"
 #include "isolux/formats/statement.h"
 
-namespace isolux::mgf {
+namespace isolux {
 
 /// Cuts a text into statements; lines end in LF, CR or both. Blank lines and comments are left out,
 /// and so is the mark that some editors put before UTF-8.
@@ -27,4 +27,4 @@ class StatementReader {
   int line_ = 1;
 };
 
-}  // namespace isolux::mgf
+}  // namespace isolux
