@@ -7,6 +7,10 @@
 
 namespace isolux {
 
+/// The luminous efficacy of white light by which Radiance converts (Ward 1994), lm/W: how readers
+/// and writers of formats that count in watts do too.
+inline constexpr double kWhiteEfficacy = 179;
+
 // Colours as CIE 1931 tristimulus values (X, Y, Z), and as linear Rec. 709. Neutral is the
 // equal-energy white, X = Y = Z, which becomes the white of Rec. 709, r = g = b, as a surface that
 // reflects all wavelengths alike is grey.

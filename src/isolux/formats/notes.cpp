@@ -1,5 +1,7 @@
 #include "isolux/formats/notes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "isolux/scene/spelling.h"
@@ -11,6 +13,10 @@ constexpr std::size_t kMostLines = 100;  // more would not be read
 void Notes::add(const std::string& line) {
   if (std::find(lines_.begin(), lines_.end(), line) != lines_.end()) return;
   if (lines_.size() < kMostLines) lines_.push_back(line);
+}
+
+void Notes::add(std::size_t count, std::string_view noun, std::string_view what) {
+  if (count > 0) add(fmt::format("{} {}{} {}", count, noun, count == 1 ? "" : "s", what));
 }
 
 void Notes::left_out(std::string_view word, std::string_view reason) {

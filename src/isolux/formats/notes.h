@@ -11,6 +11,8 @@ class Notes {
  public:
   /// A line of its own; after a hundred of these, no more.
   void add(const std::string& line);
+  /// "2 faces without area: left out"; nothing where there are none.
+  void add(std::size_t count, std::string_view noun, std::string_view what);
   /// A word of the language that was left out; words left out for one reason share a line. Both
   /// live on.
   void left_out(std::string_view word, std::string_view reason);

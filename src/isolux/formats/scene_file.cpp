@@ -7,6 +7,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/formats/mgf/mgf.h"
+#include "isolux/formats/obj/reader.h"
 #include "isolux/formats/openscad/reader.h"
 #include "isolux/formats/radiance/read_radiance.h"
 #include "isolux/formats/rayshade/reader.h"
@@ -31,6 +32,7 @@ const std::vector<FormatReader>& format_readers() {
          return SceneFile{load_scene(path), {}};
        }},
       {"mgf", {".mgf"}, read_mgf},
+      {"obj", {".obj"}, read_obj},
       {"openscad", {".csg"}, read_openscad},
       {"radiance", {".rad", ".rif"}, read_radiance},
       {"rayshade", {".ray"}, read_rayshade},

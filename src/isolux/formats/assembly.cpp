@@ -1,0 +1,161 @@
+#include "isolux/formats/assembly.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "isolux/core/error.h"
+#include "isolux/formats/default_camera.h"
+#include "isolux/formats/soup.h"
+#include "isolux/geometry/complement.h"
+#include "isolux/geometry/tessellation.h"
+#include "isolux/geometry/triangle_mesh.h"
+
+namespace isolux {
+namespace {
+
+constexpr std::size_t kMostItems = 900'000;  // points and triangles: what the native format holds
+constexpr std::size_t kMostBeforeMending = 2'000'000;  // of a mesh, before it is mended
+constexpr std::size_t kMostObjects = 100'000;
+constexpr double kFarthest = 1e9;          // m, as the native format allows
+constexpr double kMostExitance = 1e12;     // lm/m², likewise
+constexpr std::size_t kLongestName = 100;  // bytes
+constexpr double kRoom = 0.5;              // of the scene's size: a room is that large at least
+constexpr std::size_t kMostWitnesses = 64;
+
+/// The name, and a number behind it where it is taken.
+std::string numbered(const std::string& name, std::map<std::string, std::size_t>& uses) {
+  std::size_t& count = uses[name];
+  if (++count == 1) return name;
+  std::string result;
+  do {
+    result = fmt::format("{} {}", name, count++);
+  } while (!uses.emplace(result, 1).second);
+  --count;
+  return result;
+}
+
+Rgb clamped(const Rgb& c, double least, double most) {
+  return {std::clamp(c.r, least, most), std::clamp(c.g, least, most),
+          std::clamp(c.b, least, most)};
+}
+
+/// Places that a room has inside: eyes, sources and a point in front of each light.
+std::vector<Vec3> witnesses(const Scene& scene, double hair) {
+  std::vector<Vec3> places;
+  for (const Camera& camera : scene.cameras) places.push_back(camera.eye);
+  for (const Source& source : scene.sources) {
+    if (source.kind == Source::Kind::point) places.push_back(source.position);
+  }
+  for (const Object& object : scene.objects) {
+    if (!object.emits() || places.size() > kMostWitnesses) continue;
+    const auto soup = object.shape->triangulate(std::numeric_limits<double>::infinity());
+    if (!soup || soup->triangles.empty()) continue;
+    const auto& [a, b, c] = soup->triangles.front();
+    const Vec3 &p = soup->points[a], &q = soup->points[b], &r = soup->points[c];
+    places.push_back((p + q + r) / 3 + normalized(cross(q - p, r - p)) * hair);
+  }
+  if (places.size() > kMostWitnesses) places.resize(kMostWitnesses);
+  return places;
+}
+
+}  // namespace
+
+std::string clean_name(std::string_view name, std::string_view otherwise) {
+  std::string clean(name.empty() ? otherwise : name.substr(0, kLongestName));
+  for (char& c : clean) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return clean;
+}
+
+std::shared_ptr<const Shape> Assembly::mesh(TriangleSoup soup, bool two_sided) {
+  const auto fail_as_too_large = [](std::size_t most, std::string_view what) {
+    throw InputError(fmt::format("the scene has more than {} {}: make it coarser", most, what));
+  };
+  if (soup.triangles.size() > kMostBeforeMending) fail_as_too_large(kMostTriangles, "triangles");
+  const LeftOut left_out = weld(soup);
+  flat_ += left_out.flat;
+  repeated_ += left_out.repeated;
+  if (soup.triangles.empty()) return nullptr;
+  items_ += soup.points.size() + soup.triangles.size();
+  if (items_ > kMostItems) fail_as_too_large(kMostItems, "points and triangles");
+  for (const Vec3& p : soup.points) {
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest) continue;
+    throw InputError(fmt::format("a point lies more than {:g} m away", kFarthest));
+  }
+  if (two_sided) agree(soup);
+  auto mesh = std::make_shared<TriangleMesh>(soup.points, soup.triangles);
+  if (!two_sided || !mesh->unbounded()) return mesh;
+  flip(soup);
+  return std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
+}
+
+std::uint32_t Assembly::material(const Look& look) {
+  const auto number = static_cast<std::uint32_t>(scene_.materials.size());
+  const std::string name = clean_name(look.material, "unnamed");
+  const Rgb& c = look.reflectance;
+  const auto [found, is_new] = materials_.try_emplace({name, c.r, c.g, c.b}, number);
+  if (is_new) {
+    const Rgb reflectance = clamped(c, 0, kMostReflectance);
+    clamped_ += reflectance != c;
+    scene_.materials.push_back({numbered(name, material_uses_), reflectance});
+  }
+  return found->second;
+}
+
+void Assembly::add(const std::string& name, std::shared_ptr<const Shape> shape, const Look& look) {
+  if (!shape) return;
+  if (scene_.objects.size() == kMostObjects) {
+    throw InputError(fmt::format("the scene has more than {} objects", kMostObjects));
+  }
+  if (!is_finite(look.reflectance)) throw InputError("a reflectance is not finite");
+  if (!is_finite(look.exitance) || max_channel(look.exitance) > kMostExitance) {
+    throw InputError(fmt::format("a light is stronger than {:g} lm/m²", kMostExitance));
+  }
+  Object object;
+  object.name = numbered(clean_name(name, "object"), object_uses_);
+  object.material = material(look);
+  object.exitance = clamped(look.exitance, 0, kMostExitance);
+  const bool open_on_both = look.two_sided && !shape->solid();
+  object.sides = open_on_both && !object.emits() ? Sides::both : Sides::front;
+  two_sided_lights_ += open_on_both && object.emits();
+  object.shape = std::move(shape);
+  scene_.objects.push_back(std::move(object));
+  two_sided_.push_back(look.two_sided);
+}
+
+void Assembly::turn_rooms_over() {
+  const double size = scene_.bounds().diagonal();
+  const std::vector<Vec3> places = witnesses(scene_, 1e-6 * size);
+  std::size_t rooms = 0;
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    Object& object = scene_.objects[i];
+    const Shape& shape = *object.shape;
+    if (!two_sided_[i] || object.emits() || !shape.solid() || shape.unbounded()) continue;
+    const Bounds box = shape.bounds();
+    if (box.diagonal() < kRoom * size) continue;
+    if (std::none_of(places.begin(), places.end(), [&](const Vec3& place) {
+          return box.encloses({place, place}) && shape.contains(place);
+        })) {
+      continue;
+    }
+    object.shape = std::make_shared<Complement>(object.shape);
+    ++rooms;
+  }
+  notes_.add(rooms, "closed surface", "around eye or light: taken for a room, seen from inside");
+}
+
+SceneFile Assembly::finish() {
+  if (scene_.objects.empty()) throw InputError("the scene has no surfaces");
+  turn_rooms_over();
+  if (scene_.cameras.empty()) scene_.cameras.push_back(default_camera(scene_));
+  notes_.add(flat_, "triangle", "without area: left out");
+  notes_.add(repeated_, "triangle", "between the same points as another: left out");
+  notes_.add(clamped_, "material",
+             fmt::format("that reflects 1 or more: reduced to {}", kMostReflectance));
+  notes_.add(two_sided_lights_, "light", "seen from both sides: shines from the front alone");
+  return {std::move(scene_), notes_.lines()};
+}
+
+}  // namespace isolux
