@@ -8,6 +8,7 @@
 #include "isolux/formats/default_camera.h"
 #include "isolux/formats/soup.h"
 #include "isolux/geometry/complement.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/geometry/tessellation.h"
 #include "isolux/geometry/triangle_mesh.h"
 
@@ -36,8 +37,7 @@ std::string numbered(const std::string& name, std::map<std::string, std::size_t>
 }
 
 Rgb clamped(const Rgb& c, double least, double most) {
-  return {std::clamp(c.r, least, most), std::clamp(c.g, least, most),
-          std::clamp(c.b, least, most)};
+  return {std::clamp(c.r, least, most), std::clamp(c.g, least, most), std::clamp(c.b, least, most)};
 }
 
 /// Places that a room has inside: eyes, sources and a point in front of each light.
@@ -69,26 +69,42 @@ std::string clean_name(std::string_view name, std::string_view otherwise) {
   return clean;
 }
 
+void Assembly::count_items(std::size_t items) {
+  items_ += items;
+  if (items_ <= kMostItems) return;
+  throw InputError(
+      fmt::format("the scene has more than {} points and triangles: make it coarser", kMostItems));
+}
+
 std::shared_ptr<const Shape> Assembly::mesh(TriangleSoup soup, bool two_sided) {
-  const auto fail_as_too_large = [](std::size_t most, std::string_view what) {
-    throw InputError(fmt::format("the scene has more than {} {}: make it coarser", most, what));
-  };
-  if (soup.triangles.size() > kMostBeforeMending) fail_as_too_large(kMostTriangles, "triangles");
+  if (soup.triangles.size() > kMostBeforeMending) {
+    throw InputError(
+        fmt::format("a mesh has more than {} triangles: make it coarser", kMostBeforeMending));
+  }
   const LeftOut left_out = weld(soup);
   flat_ += left_out.flat;
   repeated_ += left_out.repeated;
   if (soup.triangles.empty()) return nullptr;
-  items_ += soup.points.size() + soup.triangles.size();
-  if (items_ > kMostItems) fail_as_too_large(kMostItems, "points and triangles");
+  const std::size_t items = soup.points.size() + soup.triangles.size();
+  count_items(items);
   for (const Vec3& p : soup.points) {
     if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest) continue;
     throw InputError(fmt::format("a point lies more than {:g} m away", kFarthest));
   }
   if (two_sided) agree(soup);
   auto mesh = std::make_shared<TriangleMesh>(soup.points, soup.triangles);
-  if (!two_sided || !mesh->unbounded()) return mesh;
-  flip(soup);
-  return std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
+  if (two_sided && mesh->unbounded()) {
+    flip(soup);
+    mesh = std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
+  }
+  items_of_[mesh.get()] = items;
+  return mesh;
+}
+
+std::shared_ptr<const Shape> Assembly::placed(const std::shared_ptr<const Shape>& mesh,
+                                              const Affine& map) {
+  count_items(items_of_[mesh.get()]);
+  return std::make_shared<Instance>(mesh, map);
 }
 
 std::uint32_t Assembly::material(const Look& look) {
@@ -146,10 +162,12 @@ void Assembly::turn_rooms_over() {
   notes_.add(rooms, "closed surface", "around eye or light: taken for a room, seen from inside");
 }
 
-SceneFile Assembly::finish() {
+SceneFile Assembly::finish(std::optional<int> up) {
   if (scene_.objects.empty()) throw InputError("the scene has no surfaces");
   turn_rooms_over();
-  if (scene_.cameras.empty()) scene_.cameras.push_back(default_camera(scene_));
+  if (scene_.cameras.empty()) {
+    scene_.cameras.push_back(default_camera(scene_, up ? *up : guessed_up_axis(scene_)));
+  }
   notes_.add(flat_, "triangle", "without area: left out");
   notes_.add(repeated_, "triangle", "between the same points as another: left out");
   notes_.add(clamped_, "material",

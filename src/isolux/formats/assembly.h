@@ -1,12 +1,14 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "isolux/core/affine.h"
 #include "isolux/formats/notes.h"
 #include "isolux/formats/scene_file.h"
 
@@ -37,23 +39,28 @@ class Assembly {
   /// have too many triangles.
   std::shared_ptr<const Shape> mesh(TriangleSoup soup, bool two_sided);
 
-  /// Adds an object, unless there is no shape. Names that come again are numbered. Throws InputError
-  /// where there are too many, or the light is too strong.
+  /// The mesh, once more, through a map.
+  std::shared_ptr<const Shape> placed(const std::shared_ptr<const Shape>& mesh, const Affine& map);
+
+  /// Adds an object, unless there is no shape. Names that come again are numbered. Throws
+  /// InputError where there are too many, or the light is too strong.
   void add(const std::string& name, std::shared_ptr<const Shape> shape, const Look& look);
 
-  /// The scene, with a camera. Solids that are seen from both sides are turned over where they are
-  /// rooms: where they have an eye or a light inside, and most of the scene. Throws InputError where
-  /// there is no surface.
-  SceneFile finish();
+  /// The scene, with a camera; `up` is the axis that points up, where the format says so. Solids
+  /// that are seen from both sides are turned over where they are rooms: where they have an eye or
+  /// a light inside, and most of the scene. Throws InputError where there is no surface.
+  SceneFile finish(std::optional<int> up = {});
 
  private:
+  void count_items(std::size_t items);
   std::uint32_t material(const Look& look);
   void turn_rooms_over();
 
   Scene scene_;
   std::vector<bool> two_sided_;  ///< a flag an object
   Notes notes_;
-  std::size_t items_ = 0;  ///< points and triangles of all meshes
+  std::size_t items_ = 0;  ///< points and triangles of all meshes, instances included
+  std::map<const Shape*, std::size_t> items_of_;
   std::size_t flat_ = 0, repeated_ = 0, clamped_ = 0, two_sided_lights_ = 0;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;
   std::map<std::string, std::size_t> material_uses_, object_uses_;

@@ -86,9 +86,10 @@ int guessed_up_axis(const Scene& scene) {
   return along_y > 0.5 && along_y > along_z ? 1 : 2;
 }
 
-Camera default_camera(const Scene& scene) {
+Camera default_camera(const Scene& scene) { return default_camera(scene, guessed_up_axis(scene)); }
+
+Camera default_camera(const Scene& scene, int up) {
   const Bounds box = scene.bounds();
-  const int up = guessed_up_axis(scene);
   Camera camera;
   camera.name = "default";
   camera.fov = kFieldOfView;

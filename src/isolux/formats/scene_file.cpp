@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "isolux/core/error.h"
+#include "isolux/formats/gltf/reader.h"
 #include "isolux/formats/mgf/mgf.h"
 #include "isolux/formats/obj/reader.h"
 #include "isolux/formats/openscad/reader.h"
@@ -31,6 +32,7 @@ const std::vector<FormatReader>& format_readers() {
        [](const std::filesystem::path& path) {
          return SceneFile{load_scene(path), {}};
        }},
+      {"gltf", {".gltf", ".glb"}, read_gltf},
       {"mgf", {".mgf"}, read_mgf},
       {"obj", {".obj"}, read_obj},
       {"openscad", {".csg"}, read_openscad},

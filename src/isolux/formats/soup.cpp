@@ -15,10 +15,10 @@
 namespace isolux {
 namespace {
 
-constexpr double kSamePlace = 1e-7;            // of the soup's size
-constexpr double kLeastArea = 2e-12;           // of a triangle, of its size squared
-constexpr std::size_t kMostClipped = 1000;     // corners; ear clipping takes their square
-constexpr double kMostCornerPairs = 1e8;       // of all polygons together
+constexpr double kSamePlace = 1e-7;         // of the soup's size
+constexpr double kLeastArea = 2e-12;        // of a triangle, of its size squared
+constexpr std::size_t kMostClipped = 1000;  // corners; ear clipping takes their square
+constexpr double kMostCornerPairs = 1e8;    // of all polygons together
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -181,9 +181,10 @@ void add_polygon(TriangleSoup& soup, const std::vector<std::uint32_t>& corners, 
   }
   std::vector<Vec3> points;
   for (const std::uint32_t corner : corners) points.push_back(soup.points[corner]);
-  const auto triangles = cut(points);
+  std::optional<std::vector<Corners>> triangles = cut(points);
   cutting.uncertain += !triangles;
-  for (const auto& [a, b, c] : triangles ? *triangles : fan(points.size())) {
+  if (!triangles) triangles = fan(points.size());
+  for (const auto& [a, b, c] : *triangles) {
     soup.triangles.push_back({corners[a], corners[b], corners[c]});
   }
 }

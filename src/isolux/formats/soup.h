@@ -12,8 +12,8 @@ struct LeftOut {
 
 /// What cutting polygons took so far.
 struct Cutting {
-  double corner_pairs = 0;   ///< of polygons with more than four corners: the effort
-  std::size_t uncertain = 0; ///< polygons that cross themselves, or nearly so, and became fans
+  double corner_pairs = 0;    ///< of polygons with more than four corners: the effort
+  std::size_t uncertain = 0;  ///< polygons that cross themselves, or nearly so, and became fans
 };
 
 /// Adds the polygon between `corners`, which index the soup's points (each finite): cut along its
