@@ -7,6 +7,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/formats/gltf/reader.h"
+#include "isolux/formats/mesh/reader.h"
 #include "isolux/formats/mgf/mgf.h"
 #include "isolux/formats/obj/reader.h"
 #include "isolux/formats/openscad/reader.h"
@@ -36,8 +37,10 @@ const std::vector<FormatReader>& format_readers() {
       {"mgf", {".mgf"}, read_mgf},
       {"obj", {".obj"}, read_obj},
       {"openscad", {".csg"}, read_openscad},
+      {"ply", {".ply"}, read_ply},
       {"radiance", {".rad", ".rif"}, read_radiance},
       {"rayshade", {".ray"}, read_rayshade},
+      {"stl", {".stl"}, read_stl},
   };
   return all;
 }

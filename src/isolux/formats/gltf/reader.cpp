@@ -14,10 +14,10 @@ namespace isolux {
 namespace gltf {
 namespace {
 
-/// Extensions that a file may require: they are read, or change what surfaces look like alone.
-constexpr std::array<std::string_view, 6> kExtensions = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
+/// Extensions that a file may require: they are read, or change what surfaces look like alone, as
+/// all do whose name begins like that.
+constexpr std::array<std::string_view, 3> kExtensions = {
+    "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform"};
 constexpr std::string_view kLook = "KHR_materials_";
 
 constexpr int kY = 1;  ///< the axis that points up
