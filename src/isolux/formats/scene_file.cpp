@@ -11,6 +11,7 @@
 #include "isolux/formats/mgf/mgf.h"
 #include "isolux/formats/obj/reader.h"
 #include "isolux/formats/openscad/reader.h"
+#include "isolux/formats/pbrt/reader.h"
 #include "isolux/formats/radiance/read_radiance.h"
 #include "isolux/formats/rayshade/reader.h"
 #include "isolux/scene/reader.h"
@@ -37,6 +38,7 @@ const std::vector<FormatReader>& format_readers() {
       {"mgf", {".mgf"}, read_mgf},
       {"obj", {".obj"}, read_obj},
       {"openscad", {".csg"}, read_openscad},
+      {"pbrt", {".pbrt"}, read_pbrt},
       {"ply", {".ply"}, read_ply},
       {"radiance", {".rad", ".rif"}, read_radiance},
       {"rayshade", {".ray"}, read_rayshade},

@@ -1,0 +1,115 @@
+#include "isolux/formats/pbrt/shapes.h"
+
+#include <fmt/format.h>
+
+#include "isolux/formats/mesh/ply.h"
+#include "isolux/geometry/cylinder.h"
+#include "isolux/geometry/disk.h"
+#include "isolux/geometry/instance.h"
+#include "isolux/geometry/reversed.h"
+#include "isolux/geometry/sphere.h"
+#include "isolux/geometry/tessellation.h"
+
+namespace isolux::pbrt {
+namespace {
+
+using ShapePtr = std::shared_ptr<const Shape>;
+
+/// Turns triangles to the side that the normals at their corners point to.
+void face_along(TriangleSoup& soup, const std::vector<Vec3>& normals) {
+  for (auto& [a, b, c] : soup.triangles) {
+    const Vec3 n = cross(soup.points[b] - soup.points[a], soup.points[c] - soup.points[a]);
+    if (dot(n, normals[a]) < 0) std::swap(b, c);
+  }
+}
+
+TriangleSoup triangle_mesh(const Parameters& parameters) {
+  TriangleSoup soup;
+  soup.points = parameters.points("P");
+  std::vector<std::uint32_t> order = parameters.indices("indices", soup.points.size());
+  if (order.empty() && soup.points.size() == 3) order = {0, 1, 2};
+  if (order.size() % 3 != 0) parameters.find("indices")->fail("'indices' needs triples");
+  for (std::size_t i = 0; i < order.size(); i += 3) {
+    soup.triangles.push_back({order[i], order[i + 1], order[i + 2]});
+  }
+  const std::vector<Vec3> normals = parameters.points("N");
+  if (normals.size() >= soup.points.size()) face_along(soup, normals);
+  return soup;
+}
+
+TriangleSoup bilinear_mesh(const Parameters& parameters) {
+  TriangleSoup soup;
+  soup.points = parameters.points("P");
+  std::vector<std::uint32_t> order = parameters.indices("indices", soup.points.size());
+  if (order.empty() && soup.points.size() == 4) order = {0, 1, 2, 3};
+  if (order.size() % 4 != 0) parameters.find("indices")->fail("'indices' needs fours");
+  for (std::size_t i = 0; i < order.size(); i += 4) {
+    soup.triangles.push_back({order[i], order[i + 1], order[i + 3]});
+    soup.triangles.push_back({order[i], order[i + 3], order[i + 2]});
+  }
+  return soup;
+}
+
+TriangleSoup ply_mesh(const Parameters& parameters, Includes& includes) {
+  const std::string_view name = parameters.text("filename");
+  const Parameter* const place = parameters.find("filename");
+  if (!place) return {};
+  SourceText source;
+  try {
+    source = includes.open(name);
+  } catch (const InputError& error) {
+    place->fail(error.what());
+  }
+  includes.close();
+  Cutting cutting;
+  return parse_ply(source, cutting);
+}
+
+/// A shape of one piece in its own frame; null where it is of no known kind.
+ShapePtr round_shape(std::string_view kind, const Parameters& parameters, Notes& notes) {
+  const double radius = parameters.number("radius").value_or(1);
+  const double full_circle = parameters.number("phimax").value_or(360);
+  if (full_circle < 360) notes.add("shapes that end at 'phimax': made whole");
+  if (kind == "sphere") {
+    if (parameters.find("zmin") || parameters.find("zmax")) {
+      notes.add("spheres cut by 'zmin' or 'zmax': made whole");
+    }
+    return std::make_shared<Sphere>(Vec3{}, radius);
+  }
+  if (kind == "disk") {
+    return std::make_shared<Disk>(Vec3{0, 0, parameters.number("height").value_or(0)},
+                                  Vec3{0, 0, 1}, radius,
+                                  parameters.number("innerradius").value_or(0));
+  }
+  if (kind == "cylinder") {
+    return std::make_shared<Cylinder>(Vec3{0, 0, parameters.number("zmin").value_or(-1)},
+                                      Vec3{0, 0, parameters.number("zmax").value_or(1)}, radius,
+                                      false);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+ShapePtr make_shape(std::string_view kind, const Parameters& parameters, const Affine& map,
+                    bool reversed, bool two_sided, Includes& includes, Assembly& assembly) {
+  TriangleSoup soup;
+  if (kind == "trianglemesh") {
+    soup = triangle_mesh(parameters);
+  } else if (kind == "bilinearmesh") {
+    soup = bilinear_mesh(parameters);
+  } else if (kind == "plymesh") {
+    soup = ply_mesh(parameters, includes);
+  } else if (ShapePtr shape = round_shape(kind, parameters, assembly.notes())) {
+    if (reversed && !two_sided) shape = std::make_shared<Reversed>(std::move(shape));
+    return std::make_shared<Instance>(std::move(shape), map);
+  } else {
+    assembly.notes().add("shapes other than meshes, spheres, disks and cylinders: left out");
+    return nullptr;
+  }
+  for (Vec3& p : soup.points) p = map.point(p);
+  if (reversed != (map.determinant() < 0)) flip(soup);
+  return assembly.mesh(std::move(soup), two_sided);
+}
+
+}  // namespace isolux::pbrt
