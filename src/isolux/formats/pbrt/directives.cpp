@@ -238,28 +238,21 @@ void Directives::shape(const Token& directive, Lexer& lexer) {
   Part part{kind, nullptr, state_.look};
   const bool shines = state_.emitted && max_channel(*state_.emitted) > 0;
   part.look.two_sided = !shines;
-  try {
-    part.shape =
-        make_shape(kind, parameters, state_.map, state_.reversed, !shines, includes_, assembly_);
-    if (!part.shape) return;
-    if (shines) {
-      part.look.exitance = *state_.emitted;
-      const auto area = surface_area(*part.shape);
-      if (state_.flux > 0 && area) {
-        part.look.exitance *= state_.flux / *area / luminance(*state_.emitted);
-      }
+  part.shape = make_shape(kind, parameters, state_.map, state_.reversed, !shines, directive.where,
+                          includes_, assembly_);
+  if (!part.shape) return;
+  if (shines) {
+    part.look.exitance = *state_.emitted;
+    const auto area = surface_area(*part.shape);
+    if (state_.flux > 0 && area) {
+      part.look.exitance *= state_.flux / *area / luminance(*state_.emitted);
     }
-    if (part.look.material != "unnamed") part.name = part.look.material;
-    if (object_) {
-      object_->push_back(std::move(part));
-    } else {
-      assembly_.add(part.name, part.shape, part.look);
-    }
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    // Messages of mesh files have a place of their own.
-    if (kind == "plymesh" && message.find(".ply") != std::string::npos) throw;
-    directive.fail(message);
+  }
+  if (part.look.material != "unnamed") part.name = part.look.material;
+  if (object_) {
+    object_->push_back(std::move(part));
+  } else {
+    made_at(directive.where, [&] { assembly_.add(part.name, part.shape, part.look); });
   }
 }
 
@@ -286,14 +279,12 @@ void Directives::place_object(const Token& directive, Lexer& lexer) {
     name.fail(fmt::format("there is no object {}", in_quotes(name.text)));
   }
   if (object_) directive.fail("'ObjectInstance' within an object");
-  try {
+  made_at(directive.where, [&] {
     for (const Part& part : found->second) {
       assembly_.add(found->first + '/' + part.name, assembly_.placed(part.shape, state_.map),
                     part.look);
     }
-  } catch (const InputError& error) {
-    directive.fail(error.what());
-  }
+  });
 }
 
 void Directives::skip(const Token& directive, Lexer& lexer) {

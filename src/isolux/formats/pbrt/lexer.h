@@ -18,6 +18,16 @@ struct Token {
   [[noreturn]] void fail(const std::string& message) const { throw InputError(where, message); }
 };
 
+/// Makes something; what it throws without a place gets this one. For work that reads no tokens.
+template <typename Make>
+auto made_at(const SourceLocation& where, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    throw InputError(where, error.what());
+  }
+}
+
 /// Cuts a file into tokens, which refer to it.
 class Lexer {
  public:

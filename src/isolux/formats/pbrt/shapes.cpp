@@ -66,33 +66,31 @@ TriangleSoup ply_mesh(const Parameters& parameters, Includes& includes) {
 }
 
 /// A shape of one piece in its own frame; null where it is of no known kind.
-ShapePtr round_shape(std::string_view kind, const Parameters& parameters, Notes& notes) {
-  const double radius = parameters.number("radius").value_or(1);
-  const double full_circle = parameters.number("phimax").value_or(360);
-  if (full_circle < 360) notes.add("shapes that end at 'phimax': made whole");
-  if (kind == "sphere") {
+ShapePtr round_shape(std::string_view kind, const Parameters& parameters,
+                     const SourceLocation& where, Notes& notes) {
+  const auto number = [&](std::string_view name, double otherwise) {
+    return parameters.number(name).value_or(otherwise);
+  };
+  if (number("phimax", 360) < 360) notes.add("shapes that end at 'phimax': made whole");
+  const double radius = number("radius", 1), inner = number("innerradius", 0);
+  const Vec3 low{0, 0, number("zmin", -1)}, high{0, 0, number("zmax", 1)};
+  const Vec3 center{0, 0, number("height", 0)};
+  return made_at(where, [&]() -> ShapePtr {
+    if (kind == "disk") return std::make_shared<Disk>(center, Vec3{0, 0, 1}, radius, inner);
+    if (kind == "cylinder") return std::make_shared<Cylinder>(low, high, radius, false);
+    if (kind != "sphere") return nullptr;
     if (parameters.find("zmin") || parameters.find("zmax")) {
       notes.add("spheres cut by 'zmin' or 'zmax': made whole");
     }
     return std::make_shared<Sphere>(Vec3{}, radius);
-  }
-  if (kind == "disk") {
-    return std::make_shared<Disk>(Vec3{0, 0, parameters.number("height").value_or(0)},
-                                  Vec3{0, 0, 1}, radius,
-                                  parameters.number("innerradius").value_or(0));
-  }
-  if (kind == "cylinder") {
-    return std::make_shared<Cylinder>(Vec3{0, 0, parameters.number("zmin").value_or(-1)},
-                                      Vec3{0, 0, parameters.number("zmax").value_or(1)}, radius,
-                                      false);
-  }
-  return nullptr;
+  });
 }
 
 }  // namespace
 
 ShapePtr make_shape(std::string_view kind, const Parameters& parameters, const Affine& map,
-                    bool reversed, bool two_sided, Includes& includes, Assembly& assembly) {
+                    bool reversed, bool two_sided, const SourceLocation& where, Includes& includes,
+                    Assembly& assembly) {
   TriangleSoup soup;
   if (kind == "trianglemesh") {
     soup = triangle_mesh(parameters);
@@ -100,16 +98,16 @@ ShapePtr make_shape(std::string_view kind, const Parameters& parameters, const A
     soup = bilinear_mesh(parameters);
   } else if (kind == "plymesh") {
     soup = ply_mesh(parameters, includes);
-  } else if (ShapePtr shape = round_shape(kind, parameters, assembly.notes())) {
+  } else if (ShapePtr shape = round_shape(kind, parameters, where, assembly.notes())) {
     if (reversed && !two_sided) shape = std::make_shared<Reversed>(std::move(shape));
-    return std::make_shared<Instance>(std::move(shape), map);
+    return made_at(where, [&] { return std::make_shared<Instance>(shape, map); });
   } else {
     assembly.notes().add("shapes other than meshes, spheres, disks and cylinders: left out");
     return nullptr;
   }
   for (Vec3& p : soup.points) p = map.point(p);
   if (reversed != (map.determinant() < 0)) flip(soup);
-  return assembly.mesh(std::move(soup), two_sided);
+  return made_at(where, [&] { return assembly.mesh(std::move(soup), two_sided); });
 }
 
 }  // namespace isolux::pbrt
