@@ -15,13 +15,6 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-#define ISOLUX_NEED_SCENES()                                                 \
-  if (!std::filesystem::exists(shared_dir() / "scenes")) {                   \
-    const char* ci = std::getenv("CI");                                      \
-    if (ci && std::string(ci) == "true") FAIL() << "no scenes in ../shared"; \
-    GTEST_SKIP() << "no scenes in ../shared";                                \
-  }
-
 SceneFile load(const std::string& name) { return load_scene_file(shared_dir() / "scenes" / name); }
 
 std::size_t lights(const Scene& scene) {

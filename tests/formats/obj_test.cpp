@@ -123,12 +123,8 @@ TEST(Obj, DamagedFilesDoNoHarm) {
 
 // McGuire's Cornell box: eight parts drawn under seven pairs of group and material.
 TEST(Obj, CornellBox) {
+  ISOLUX_NEED_SCENES();
   const auto path = shared_dir() / "scenes/cornell-mcguire/CornellBox-Original.obj";
-  if (!std::filesystem::exists(path)) {
-    const char* ci = std::getenv("CI");
-    if (ci && std::string(ci) == "true") FAIL() << "no scenes in ../shared";
-    GTEST_SKIP() << "no scenes in ../shared";
-  }
   const SceneFile file = load_scene_file(path);
   const Scene& scene = file.scene;
   EXPECT_EQ(scene.objects.size(), 7u);

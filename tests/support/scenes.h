@@ -30,4 +30,13 @@ inline std::filesystem::path shared_dir() { return source_dir().parent_path() / 
     GTEST_SKIP() << "no validation data in ../shared";                                \
   }
 
+/// Skips the test where the scenes kept beside the project are absent, but fails it in continuous
+/// integration.
+#define ISOLUX_NEED_SCENES()                                                 \
+  if (!std::filesystem::exists(shared_dir() / "scenes")) {                   \
+    const char* ci = std::getenv("CI");                                      \
+    if (ci && std::string(ci) == "true") FAIL() << "no scenes in ../shared"; \
+    GTEST_SKIP() << "no scenes in ../shared";                                \
+  }
+
 }  // namespace isolux

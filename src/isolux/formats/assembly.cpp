@@ -15,7 +15,7 @@
 namespace isolux {
 namespace {
 
-constexpr std::size_t kMostItems = 900'000;  // points and triangles: what the native format holds
+constexpr std::size_t kMostItems = 500'000;  // points and triangles: what the native format holds
 constexpr std::size_t kMostBeforeMending = 2'000'000;  // of a mesh, before it is mended
 constexpr std::size_t kMostObjects = 100'000;
 constexpr double kFarthest = 1e9;          // m, as the native format allows

@@ -10,7 +10,6 @@
 #include "isolux/formats/colorimetry.h"
 #include "isolux/formats/statement_reader.h"
 #include "isolux/formats/texture.h"
-#include "isolux/scene/spelling.h"
 
 namespace isolux::obj {
 namespace {

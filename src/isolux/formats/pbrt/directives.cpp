@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "isolux/formats/pbrt/shapes.h"
-#include "isolux/geometry/instance.h"
 #include "isolux/scene/spelling.h"
 
 namespace isolux::pbrt {
