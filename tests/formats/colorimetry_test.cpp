@@ -68,6 +68,15 @@ TEST(Colorimetry, LuminanceIsY) {
   }
 }
 
+TEST(Colorimetry, WattsBecomeLumensAsInRadiance) {
+  EXPECT_NEAR(luminance_of_radiance(gray(2)).g, 2 * 179, 1e-9);
+  const Rgb radiance{1, 2, 5}, seen = luminance_of_radiance(radiance);
+  EXPECT_NEAR(luminance(seen), 179 * (0.265 * 1 + 0.670 * 2 + 0.065 * 5), 1e-9);
+  EXPECT_NEAR(seen.g / seen.r, 2, 1e-12);
+  EXPECT_NEAR(radiance_of_luminance(seen).b, 5, 1e-12);
+  EXPECT_EQ(luminance_of_radiance({}), Rgb{});
+}
+
 TEST(Colorimetry, PalingKeepsLuminanceAndRange) {
   const Rgb fine{0.2, 0.5, 0.9};
   EXPECT_EQ(paled_into_range(fine, 1), fine);

@@ -87,9 +87,10 @@ TEST(MgfContext, OnlyDiffuseReflectanceIsKept) {
                                    "ts 0.5 0\nm\nm glossy\nf o x y\nm glass\nf o x xy\nf o xy y\n");
   expect_near(file.scene.materials.at(0).reflectance, gray(0.3), 1e-12);
   expect_near(file.scene.materials.at(1).reflectance, gray(0), 0);
-  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("(rs) of 1 material: absorbed"),
-                                      HasSubstr("(td, ts) of 1 material: absorbed"),
-                                      "index of refraction (ir) of 1 material: ignored"));
+  EXPECT_THAT(file.notes,
+              ElementsAre(HasSubstr("1 material with specular reflectance (rs): absorbed"),
+                          HasSubstr("1 material with transmittance (td, ts): absorbed"),
+                          "1 material with an index of refraction (ir): ignored"));
 }
 
 TEST(MgfContext, AReflectanceOf1IsClamped) {
@@ -112,13 +113,13 @@ TEST(MgfContext, TwoSidedLightsShineFromTheirFrontAlone) {
   const SceneFile file = read_text(kVertices + "ed 5\nf o x y\nsph z 0.1\n");
   EXPECT_EQ(file.scene.objects.at(0).sides, Sides::front);
   EXPECT_THAT(file.notes,
-              ElementsAre(HasSubstr("from both sides of 1 light: from the front alone")));
+              ElementsAre(HasSubstr("1 light with emission (ed) from both sides: from the front")));
 }
 
 TEST(MgfContext, ATorusIsDark) {
   const SceneFile file = read_text(kVertices + "ed 5\ntorus z 1 2\n");
   EXPECT_FALSE(file.scene.objects.at(0).emits());
-  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("(ed) of a torus, 1 light")));
+  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("1 light on a torus (ed)")));
 }
 
 TEST(MgfContext, ColoursOfMaterials) {

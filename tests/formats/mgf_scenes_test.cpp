@@ -69,7 +69,8 @@ TEST(MgfScenes, Corridor) {
                           0.3 * 4 * std::sqrt(2.0) + 57 * 0.16 + 2 * pi * 0.3 * 10 +
                           2 * pi * 0.1 * 1 + 4 * pi * pi * 1.25 * 0.15 + 4 * pi * 0.64;
   EXPECT_NEAR(area, expected, 1e-9);
-  EXPECT_THAT(file.notes, testing::Contains(HasSubstr("(rs) of 8 materials")));
+  EXPECT_THAT(file.notes,
+              testing::Contains(HasSubstr("8 materials with specular reflectance (rs)")));
 }
 
 TEST(MgfScenes, Soda) {

@@ -41,8 +41,8 @@ TEST(Obj, MaterialsGiveReflectanceAndLight) {
   const Scene& scene = file.scene;
   EXPECT_EQ(scene.materials.at(0).reflectance, (Rgb{0.25, 0.5, 0.999}));
   const Rgb& exitance = scene.objects.at(0).exitance;
-  EXPECT_NEAR(exitance.r, pi * 179, 1e-9);
-  EXPECT_NEAR(exitance.b, 3 * pi * kWhiteEfficacy, 1e-9);
+  EXPECT_NEAR(luminance(exitance), pi * 179 * (0.265 * 1 + 0.670 * 2 + 0.065 * 3), 1e-9);
+  EXPECT_NEAR(exitance.b, 3 * exitance.r, 1e-9);
   EXPECT_EQ(scene.objects[0].sides, Sides::front);
   for (const char* note : {"reduced to 0.999", "'Ks' left out", "'d' left out"}) {
     EXPECT_THAT(file.notes, Contains(HasSubstr(note)));
@@ -131,8 +131,8 @@ TEST(Obj, CornellBox) {
   EXPECT_NEAR(surface_area(*scene.objects.at(0).shape).value(), 0.5 * (2.01 + 1.99) * 2.03, 1e-9);
   EXPECT_EQ(scene.materials.at(4).reflectance, (Rgb{0.999, 0.065, 0.05}));
   const double area = 0.47 * 0.38;
-  EXPECT_NEAR(luminous_flux(scene.objects.back()), pi * 179 * area * luminance(Rgb{17, 12, 4}),
-              1e-6);
+  EXPECT_NEAR(luminous_flux(scene.objects.back()),
+              pi * 179 * area * (0.265 * 17 + 0.670 * 12 + 0.065 * 4), 1e-6);
   EXPECT_THAT(file.notes, Contains(HasSubstr("1 material that reflects 1 or more")));
   // The light faces down.
   Hits hits;

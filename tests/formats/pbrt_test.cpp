@@ -68,7 +68,9 @@ TEST(Pbrt, LightsAreMeasuredByTheEye) {
                    "AttributeEnd\n" + kTriangle)
           .scene;
   ASSERT_EQ(scene.sources.size(), 3u);
-  EXPECT_EQ(scene.sources[0].intensity, (Rgb{179, 358, 537}));
+  const Rgb& intensity = scene.sources[0].intensity;
+  EXPECT_NEAR(luminance(intensity), 179 * (0.265 * 1 + 0.670 * 2 + 0.065 * 3), 1e-9);
+  EXPECT_NEAR(intensity.b, 3 * intensity.r, 1e-9);
   EXPECT_EQ(scene.sources[0].position, (Vec3{0, 0, 5}));
   EXPECT_EQ(scene.sources[1].direction, (Vec3{0, 0, -1}));
   EXPECT_NEAR(scene.sources[2].full_angle, 30, 1e-12);
@@ -161,7 +163,8 @@ TEST(Pbrt, CornellBox) {
     EXPECT_EQ(scene.objects[i].shape->face_count(), 1u);
   }
   const Object& light = scene.objects[7];
-  EXPECT_NEAR(luminous_flux(light), pi * 179 * 0.47 * 0.38 * luminance(Rgb{17, 12, 4}), 1e-6);
+  EXPECT_NEAR(luminous_flux(light), pi * 179 * 0.47 * 0.38 * (0.265 * 17 + 0.670 * 12 + 0.065 * 4),
+              1e-6);
   Hits hits;
   light.shape->intersect({{0, 0, 0}, {0, 1, 0}}, hits);
   ASSERT_EQ(hits.size(), 1u);

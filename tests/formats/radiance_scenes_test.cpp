@@ -1,28 +1,23 @@
 // The models that come with Radiance, where they are at hand beside the project.
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <map>
 #include <numbers>
 
 #include "formats/radiance_text.h"
 #include "isolux/formats/scene_file.h"
+#include "support/scenes.h"
 
 namespace isolux {
 namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path kScenes = fs::path(ISOLUX_SOURCE_DIR) / "../shared/scenes";
+const fs::path kScenes = shared_dir() / "scenes";
 
 class RadianceScenes : public testing::Test {
  protected:
-  void SetUp() override {
-    if (fs::is_directory(kScenes)) return;
-    const char* ci = std::getenv("CI");
-    if (ci && std::string(ci) == "true") FAIL() << kScenes << " is missing";
-    GTEST_SKIP() << kScenes << " is not there";
-  }
+  void SetUp() override { ISOLUX_NEED_SCENES(); }
 };
 
 SceneFile load(const std::string& name) {

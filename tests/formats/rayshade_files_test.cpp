@@ -1,25 +1,20 @@
 // The examples of Rayshade 4, where they are at hand beside the project.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 
 #include "formats/rayshade_text.h"
+#include "support/scenes.h"
 
 namespace isolux {
 namespace {
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(ISOLUX_SOURCE_DIR) / "../shared/scenes/rayshade";
+const fs::path kFolder = shared_dir() / "scenes/rayshade";
 
 class RayshadeFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    if (fs::is_directory(kFolder)) return;
-    const char* ci = std::getenv("CI");
-    if (ci && std::string(ci) == "true") FAIL() << kFolder << " is missing";
-    GTEST_SKIP() << kFolder << " is not there";
-  }
+  void SetUp() override { ISOLUX_NEED_SCENES(); }
 };
 
 TEST_F(RayshadeFiles, AllAreRead) {

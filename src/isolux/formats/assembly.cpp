@@ -6,6 +6,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/formats/default_camera.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/soup.h"
 #include "isolux/geometry/complement.h"
 #include "isolux/geometry/instance.h"
@@ -18,23 +19,8 @@ namespace {
 constexpr std::size_t kMostItems = 500'000;  // points and triangles: what the native format holds
 constexpr std::size_t kMostBeforeMending = 2'000'000;  // of a mesh, before it is mended
 constexpr std::size_t kMostObjects = 100'000;
-constexpr double kFarthest = 1e9;          // m, as the native format allows
-constexpr double kMostExitance = 1e12;     // lm/m², likewise
-constexpr std::size_t kLongestName = 100;  // bytes
-constexpr double kRoom = 0.5;              // of the scene's size: a room is that large at least
+constexpr double kRoom = 0.5;  // of the scene's size: a room is that large at least
 constexpr std::size_t kMostWitnesses = 64;
-
-/// The name, and a number behind it where it is taken.
-std::string numbered(const std::string& name, std::map<std::string, std::size_t>& uses) {
-  std::size_t& count = uses[name];
-  if (++count == 1) return name;
-  std::string result;
-  do {
-    result = fmt::format("{} {}", name, count++);
-  } while (!uses.emplace(result, 1).second);
-  --count;
-  return result;
-}
 
 Rgb clamped(const Rgb& c, double least, double most) {
   return {std::clamp(c.r, least, most), std::clamp(c.g, least, most), std::clamp(c.b, least, most)};
@@ -60,14 +46,6 @@ std::vector<Vec3> witnesses(const Scene& scene, double hair) {
 }
 
 }  // namespace
-
-std::string clean_name(std::string_view name, std::string_view otherwise) {
-  std::string clean(name.empty() ? otherwise : name.substr(0, kLongestName));
-  for (char& c : clean) {
-    if (c < ' ' || c > '~') c = '?';
-  }
-  return clean;
-}
 
 void Assembly::count_items(std::size_t items) {
   items_ += items;
@@ -115,7 +93,7 @@ std::uint32_t Assembly::material(const Look& look) {
   if (is_new) {
     const Rgb reflectance = clamped(c, 0, kMostReflectance);
     clamped_ += reflectance != c;
-    scene_.materials.push_back({numbered(name, material_uses_), reflectance});
+    scene_.materials.push_back({material_names_.next(name), reflectance});
   }
   return found->second;
 }
@@ -130,7 +108,7 @@ void Assembly::add(const std::string& name, std::shared_ptr<const Shape> shape, 
     throw InputError(fmt::format("a light is stronger than {:g} lm/m²", kMostExitance));
   }
   Object object;
-  object.name = numbered(clean_name(name, "object"), object_uses_);
+  object.name = object_names_.next(clean_name(name, "object"));
   object.material = material(look);
   object.exitance = clamped(look.exitance, 0, kMostExitance);
   const bool open_on_both = look.two_sided && !shape->solid();

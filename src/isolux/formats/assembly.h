@@ -9,11 +9,10 @@
 
 #include "isolux/core/affine.h"
 #include "isolux/formats/notes.h"
+#include "isolux/formats/object_names.h"
 #include "isolux/formats/scene_file.h"
 
 namespace isolux {
-
-inline constexpr double kMostReflectance = 0.999;  ///< that readers give a material
 
 /// A surface's look, as formats with textures and shaders put it.
 struct Look {
@@ -62,10 +61,7 @@ class Assembly {
   std::map<const Shape*, std::size_t> items_of_;
   std::size_t flat_ = 0, repeated_ = 0, clamped_ = 0, two_sided_lights_ = 0;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;
-  std::map<std::string, std::size_t> material_uses_, object_uses_;
+  NumberedNames material_names_, object_names_;
 };
-
-/// A name as scenes can have it: printing ASCII, not too long; `otherwise` where it is empty.
-std::string clean_name(std::string_view name, std::string_view otherwise);
 
 }  // namespace isolux

@@ -114,6 +114,13 @@ Vec3 integrate(const Power& power) {
   return sum / white;
 }
 
+constexpr double kWhiteEfficacy = 179;  // lm/W
+
+/// How bright Radiance finds a colour; white is 1.
+double radiance_brightness(const Rgb& color) {
+  return 0.265 * color.r + 0.670 * color.g + 0.065 * color.b;
+}
+
 }  // namespace
 
 Vec3 xyz_of_chromaticity(double x, double y) { return {x / y, 1, (1 - x - y) / y}; }
@@ -151,6 +158,16 @@ Rgb rec709(const Vec3& xyz) {
   const Rgb color{dot(kRows[0], xyz), dot(kRows[1], xyz), dot(kRows[2], xyz)};
   const double found = luminance(color);
   return found > 0 ? color * (xyz.y / found) : gray(xyz.y);
+}
+
+Rgb luminance_of_radiance(const Rgb& radiance) {
+  const double bright = radiance_brightness(radiance), seen = luminance(radiance);
+  return bright > 0 && seen > 0 ? radiance * (kWhiteEfficacy * (bright / seen)) : Rgb{};
+}
+
+Rgb radiance_of_luminance(const Rgb& color) {
+  const double bright = radiance_brightness(color), seen = luminance(color);
+  return bright > 0 && seen > 0 ? color * (seen / bright / kWhiteEfficacy) : Rgb{};
 }
 
 Rgb paled_into_range(const Rgb& color, double most) {

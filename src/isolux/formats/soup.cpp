@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "isolux/core/error.h"
+#include "isolux/formats/limits.h"
 #include "isolux/geometry/ear_clipping.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/tessellation.h"
@@ -18,7 +19,6 @@ namespace {
 constexpr double kSamePlace = 1e-7;         // of the soup's size
 constexpr double kLeastArea = 2e-12;        // of a triangle, of its size squared
 constexpr std::size_t kMostClipped = 1000;  // corners; ear clipping takes their square
-constexpr double kMostCornerPairs = 1e8;    // of all polygons together
 constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Corners = std::array<std::uint32_t, 3>;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "isolux/core/error.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/statement_reader.h"
 #include "isolux/scene/length.h"
 #include "isolux/scene/spelling.h"
@@ -208,7 +209,6 @@ std::vector<double> read_list(Numbers& numbers, const Property& property) {
 }
 
 void read_vertex(Numbers& numbers, const Element& element, TriangleSoup& soup) {
-  constexpr double kFarthest = 1e9;  // m
   Vec3 point;
   for (const Property& property : element.properties) {
     const std::vector<double> value = read_list(numbers, property);

@@ -3,13 +3,12 @@
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
 #include "isolux/formats/assembly.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/mesh/ply.h"
 #include "isolux/formats/mesh/stl.h"
 
 namespace isolux {
 namespace {
-
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
 SceneFile scene_of(std::vector<StlSolid> solids, const Cutting& cutting,
                    const std::filesystem::path& path) {
@@ -33,12 +32,12 @@ SceneFile scene_of(std::vector<StlSolid> solids, const Cutting& cutting,
 
 SceneFile read_ply(const std::filesystem::path& path) {
   Cutting cutting;
-  TriangleSoup soup = parse_ply({path.string(), read_file(path, kMostBytes)}, cutting);
+  TriangleSoup soup = parse_ply({path.string(), read_file(path, kLargestMainFile)}, cutting);
   return scene_of({{"", std::move(soup)}}, cutting, path);
 }
 
 SceneFile read_stl(const std::filesystem::path& path) {
-  return scene_of(parse_stl({path.string(), read_file(path, kMostBytes)}), {}, path);
+  return scene_of(parse_stl({path.string(), read_file(path, kLargestMainFile)}), {}, path);
 }
 
 }  // namespace isolux

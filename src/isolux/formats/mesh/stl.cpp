@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "isolux/core/error.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/statement_reader.h"
 #include "isolux/scene/spelling.h"
 
@@ -16,7 +17,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kHeader = 80, kFacet = 50;  // bytes
-constexpr double kFarthest = 1e9;                 // m
 
 template <typename Number>
 Number at(const std::string& bytes, std::size_t offset) {

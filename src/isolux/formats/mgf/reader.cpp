@@ -246,8 +246,7 @@ const Reader::UsedMaterial& Reader::current_material() {
   findings_.paled += differs(reflected, reflectance) || differs(emitted, used->second.exitance);
 
   auto& materials = result_.scene.materials;
-  const std::string name =
-      materials_.current_name().empty() ? "unnamed" : clean_name(materials_.current_name());
+  const std::string name = clean_name(materials_.current_name(), "unnamed");
   const auto [number, is_other] =
       material_numbers_.try_emplace({name, reflectance.r, reflectance.g, reflectance.b},
                                     static_cast<std::uint32_t>(materials.size()));

@@ -66,7 +66,7 @@ void read_materials(const SourceText& source, Includes& includes, Textures& text
       } else if (word == "Kd") {
         color = *value;
       } else {
-        look->exitance = *value * (std::numbers::pi * kWhiteEfficacy);
+        look->exitance = luminance_of_radiance(*value) * std::numbers::pi;
       }
     } else if (word == "map_Kd") {
       if (const auto mean = read_texture(*s, source.file, includes, textures)) {

@@ -7,6 +7,7 @@
 
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/obj/materials.h"
 #include "isolux/formats/soup.h"
 #include "isolux/formats/statement_reader.h"
@@ -14,9 +15,6 @@
 
 namespace isolux {
 namespace {
-
-constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-constexpr double kFarthest = 1e9;  // m
 
 /// The faces of one object or group that have one material.
 struct Part {
@@ -190,7 +188,7 @@ SceneFile Reader::finish() {
 }  // namespace
 
 SceneFile read_obj(const std::filesystem::path& path) {
-  const SourceText source{path.string(), read_file(path, kMostBytes)};
+  const SourceText source{path.string(), read_file(path, kLargestMainFile)};
   Reader reader(path);
   reader.read(source);
   try {

@@ -6,6 +6,7 @@
 
 #include "isolux/core/file.h"
 #include "isolux/formats/default_camera.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/openscad/extrusion.h"
 #include "isolux/formats/openscad/operators.h"
 #include "isolux/formats/openscad/primitives.h"
@@ -86,9 +87,8 @@ void Builder::add_object(const Node& node, const Affine& map, Color color) {
   Object object;
   object.shape = solid(node, map, 0);
   if (!object.shape) return;
-  constexpr std::size_t kMostObjects = 1'000'000;
-  if (scene_.objects.size() == kMostObjects) {
-    context_.tree.fail(node.place, fmt::format("more than {} solids", kMostObjects));
+  if (scene_.objects.size() == kMostSurfaces) {
+    context_.tree.fail(node.place, fmt::format("more than {} solids", kMostSurfaces));
   }
   if (!color) {
     std::vector<Color> colors;
@@ -139,8 +139,7 @@ Scene Builder::build() {
 }
 
 SceneFile read(const std::filesystem::path& path) {
-  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-  const std::string text = read_file(path, kMostBytes);
+  const std::string text = read_file(path, kLargestMainFile);
   const Tree tree = parse(text, path.string());
   Notes notes;
   SideFile side_file(path, notes);

@@ -14,7 +14,7 @@
 namespace isolux::openscad {
 namespace {
 
-constexpr double kMostReflectance = 0.9;  ///< of what has a color alone
+constexpr double kMostShown = 0.9;  ///< reflectance of what has a color alone
 constexpr double kPlainReflectance = 0.5;
 
 std::string color_name(const Color& color) {
@@ -54,7 +54,7 @@ double linear(int code) {
 
 Rgb reflectance_of(const Color& color) {
   if (!color) return gray(kPlainReflectance);
-  const auto limited = [](int code) { return std::min(linear(code), kMostReflectance); };
+  const auto limited = [](int code) { return std::min(linear(code), kMostShown); };
   return {limited((*color)[0]), limited((*color)[1]), limited((*color)[2])};
 }
 

@@ -108,7 +108,7 @@ void Directives::area_light(const Token& directive, Lexer& lexer) {
     assembly_.notes().add("lights given by a spectrum: white of radiance 1");
   }
   const Rgb scale = color(parameters, "scale").value_or(gray(1));
-  state_.emitted = radiance.value_or(gray(1)) * scale * (pi * kWhiteEfficacy);
+  state_.emitted = luminance_of_radiance(radiance.value_or(gray(1)) * scale) * pi;
   state_.flux = std::max(parameters.number("power").value_or(0), 0.0);
   if (parameters.flag("twosided")) {
     assembly_.notes().left_out("twosided", "lights shine from the front alone");
@@ -131,7 +131,7 @@ void Directives::light(const Token& directive, Lexer& lexer) {
   const Vec3 to = parameters.point("to").value_or(Vec3{0, 0, 1});
   Source source;
   source.name = kind;
-  source.intensity = value * kWhiteEfficacy;
+  source.intensity = luminance_of_radiance(value);
   source.position = state_.map.point(from);
   const Vec3 way = state_.map.vector(to - from);
   if (kind != "point") {

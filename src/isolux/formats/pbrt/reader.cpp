@@ -2,13 +2,13 @@
 
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
+#include "isolux/formats/limits.h"
 #include "isolux/formats/pbrt/directives.h"
 
 namespace isolux {
 
 SceneFile read_pbrt(const std::filesystem::path& path) {
-  constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-  const SourceText source{path.string(), read_file(path, kMostBytes)};
+  const SourceText source{path.string(), read_file(path, kLargestMainFile)};
   pbrt::Directives directives(path);
   directives.read(source);
   try {

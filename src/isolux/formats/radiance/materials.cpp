@@ -7,9 +7,9 @@
 #include <iterator>
 #include <numbers>
 
+#include "isolux/formats/colorimetry.h"
 #include "isolux/formats/limits.h"
 #include "isolux/formats/object_names.h"
-#include "isolux/formats/radiance/photometry.h"
 #include "isolux/scene/spelling.h"
 
 namespace isolux::radiance {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "isolux/formats/colorimetry.h"
 #include "isolux/formats/identifiers.h"
-#include "isolux/formats/radiance/photometry.h"
 #include "isolux/formats/simple_surface.h"
 
 namespace isolux {

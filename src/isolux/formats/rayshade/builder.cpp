@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
-#include <set>
 #include <tuple>
 
+#include "isolux/formats/limits.h"
+#include "isolux/formats/object_names.h"
 #include "isolux/formats/rayshade/leaves.h"
 #include "isolux/formats/rayshade/lights.h"
 #include "isolux/formats/rayshade/make.h"
@@ -19,7 +20,6 @@
 namespace isolux::rayshade {
 namespace {
 
-constexpr double kMostReflectance = 0.99;
 constexpr double kSmallestScene = 1e-6, kLargestScene = 1e10;  ///< m
 constexpr double kPlaneSide = 4;                               ///< of the scene's size
 
@@ -38,8 +38,6 @@ class Builder {
   ShapePtr seen_from_eye(ShapePtr shape);
   std::uint32_t material_of(const Surface& surface);
   SurfacePtr surface_of(const Leaf& leaf);
-  static std::string unique(const std::string& name, std::size_t number,
-                            std::set<std::string>& names);
   std::string name_of(const Leaf& leaf);
   Camera camera() const;
 
@@ -52,7 +50,7 @@ class Builder {
   Scene scene_;
   std::map<const Node*, ShapePtr> meshes_;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;
-  std::set<std::string> material_names_, object_names_;
+  NumberedNames material_names_, object_names_;
 };
 
 /// Finds the scene's middle and size. Planes count with their point nearest to the middle.
@@ -156,23 +154,15 @@ std::uint32_t Builder::material_of(const Surface& surface) {
   }
   const auto limited = [](double x) { return std::min(x, kMostReflectance); };
   scene_.materials.push_back(
-      {unique(surface.name, index + 1, material_names_), {limited(r), limited(g), limited(b)}});
+      {material_names_.next(surface.name), {limited(r), limited(g), limited(b)}});
   return index;
 }
 
-/// The name, with a number where there is such a name already.
-std::string Builder::unique(const std::string& name, std::size_t number,
-                            std::set<std::string>& names) {
-  const std::string chosen = names.contains(name) ? fmt::format("{} {}", name, number) : name;
-  names.insert(chosen);
-  return chosen;
-}
-
 std::string Builder::name_of(const Leaf& leaf) {
-  const std::size_t number = scene_.objects.size() + 1;
-  if (!leaf.name) return fmt::format("{} {}", leaf.node->word, number);
-  if (!leaf.alone) return fmt::format("{} {} {}", *leaf.name, leaf.node->word, number);
-  return unique(*leaf.name, number, object_names_);
+  if (leaf.name && leaf.alone) return object_names_.next(*leaf.name);
+  const std::string prefix = leaf.name ? *leaf.name + ' ' : "";
+  return object_names_.next(
+      fmt::format("{}{} {}", prefix, leaf.node->word, scene_.objects.size() + 1));
 }
 
 Camera Builder::camera() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "isolux/formats/limits.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/sphere.h"
 
@@ -13,8 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kNearest = 1e-3;          ///< of the scene's size: a light in its middle
-constexpr double kLargestExitance = 1e12;  ///< lm/m²
+constexpr double kNearest = 1e-3;  ///< of the scene's size: a light in its middle
 
 /// What stands for a light with a surface: its shape, and its exitance for each lx at the middle of
 /// the scene.
@@ -93,7 +93,7 @@ void add_lights(const std::vector<Light>& lights, const Extent& extent, Scene& s
     if (area) notes.add("area lights shine from the side that faces the scene's middle");
     const auto [shape, gain] = area ? area_light(light, extent) : extended_light(light, extent);
     const Rgb exitance = light.intensity * (pi * gain);
-    if (!(max_channel(exitance) <= kLargestExitance)) {
+    if (!(max_channel(exitance) <= kMostExitance)) {
       fail(light.place,
            "this light is too bright for its size: more than 1e12 lm/m2 would leave it");
     }
