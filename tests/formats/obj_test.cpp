@@ -1,7 +1,6 @@
 #include <numbers>
 
 #include "formats/refusal.h"
-#include "isolux/formats/colorimetry.h"
 #include "support/scenes.h"
 
 namespace isolux {

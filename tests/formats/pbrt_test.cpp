@@ -96,13 +96,14 @@ TEST(Pbrt, ObjectsArePlacedByInstances) {
   EXPECT_NEAR(surface_area(*scene.objects[3].shape).value(), 16 * pi, 1e-9);
 }
 
+// Names are relative to the folder of the main file, wherever they stand.
 TEST(Pbrt, FilesIncludeOthers) {
   const TemporaryFolder folder;
   folder.write("parts/a.ply",
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
                "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  folder.write("parts/part.pbrt", "Shape \"plymesh\" \"string filename\" \"a.ply\"\n");
+  folder.write("parts/part.pbrt", "Shape \"plymesh\" \"string filename\" \"parts/a.ply\"\n");
   const auto file = folder.write("a.pbrt", "WorldBegin\nInclude \"parts/part.pbrt\"\n");
   EXPECT_EQ(load_scene_file(file).scene.objects.size(), 1u);
 }

@@ -10,7 +10,7 @@ namespace isolux::pbrt {
 class Directives {
  public:
   explicit Directives(const std::filesystem::path& path)
-      : includes_(path), assembly_(path.stem().string()) {}
+      : includes_(path, Includes::Base::main_file), assembly_(path.stem().string()) {}
 
   void read(const SourceText& source);
   SceneFile finish();
