@@ -76,21 +76,21 @@ std::vector<StarTriangle> star_of(const CoverPoints& all, std::uint32_t id, cons
   const CoverPoint& p = all.points()[id];
   const Frame frame(p.normal);
   thread_local std::vector<std::uint32_t> ids;
-  const double reach = std::min(kReach * p.size, longest);
-  all.grid().query(p.position, reach, 8, ids);
+  const double reach = std::min(kReach * p.longest(), longest);
+  all.grid().query(p.surface.object, p.position, reach, 4, ids);
   std::vector<Candidate> around;
   for (const std::uint32_t other : ids) {
     const CoverPoint& q = all.points()[other];
     const Vec3 d = q.position - p.position;
-    const double squared = length_squared(d);
-    if (other == id || squared > reach * reach ||
+    if (other == id || length_squared(d) > reach * reach ||
         dot(p.normal, q.normal) < walk.cos_normal_tolerance()) {
       continue;
     }
-    // Laid out at its true distance, as if the surface were rolled flat.
-    const double x = dot(d, frame.u), y = dot(d, frame.v);
+    // Laid out at its true distance, as if the surface were rolled flat, and squeezed.
+    const Vec3 flat = p.squeezed(d);
+    const double squared = length_squared(flat), x = dot(flat, frame.u), y = dot(flat, frame.v);
     const double scale = std::sqrt(squared / std::max(x * x + y * y, 1e-300));
-    if (scale > 1.5) continue;
+    if (scale > 1.5 || squared > kReach * kReach * p.size * p.size) continue;
     around.push_back({squared, other, {x * scale, y * scale}});
   }
   std::sort(around.begin(), around.end(), [](const Candidate& a, const Candidate& b) {

@@ -83,9 +83,8 @@ class Weaver {
     for (const Triangle& t : mesh_.triangles()) {
       if (!t.alive || t.on_light) continue;
       for (int k = 0; k < 3; ++k) {
-        if (t.vertices[k] < t.vertices[(k + 1) % 3]) {
-          edges.emplace_back(t.vertices[k], t.vertices[(k + 1) % 3]);
-        }
+        const VertexId a = t.vertices[k], b = t.vertices[(k + 1) % 3];
+        if (a < b && !stretched(a) && !stretched(b)) edges.emplace_back(a, b);
       }
     }
     mesh_.make_delaunay(std::move(edges));
@@ -93,6 +92,7 @@ class Weaver {
 
  private:
   VertexId id(std::uint32_t point) const { return static_cast<VertexId>(first_ + point); }
+  bool stretched(VertexId v) const { return v >= first_ && point(v).stretch > 1; }
   const CoverPoint& point(VertexId v) const { return points_.points()[v - first_]; }
   const Vec3& at(VertexId v) const { return mesh_.vertex(v).position; }
 
@@ -169,16 +169,19 @@ bool Weaver::mend_at(VertexId a, VertexId b) {
   ZonePoint from = point(a);
   from.position = middle;
   from.normal = normal;
-  if (!walk_.step(from, middle + outward * (0.12 * along))) return false;
+  const double past = 0.12 * std::min(along, 2 * point(a).along(outward));
+  if (!walk_.step(from, middle + outward * past)) return false;
 
   std::vector<std::uint32_t> ids;
-  const double reach = 1.5 * std::max({along, point(a).size, point(b).size});
-  points_.grid().query(middle, reach, 8, ids);
+  const double reach = 1.5 * std::max({along, point(a).longest(), point(b).longest()});
+  points_.grid().query(point(a).surface.object, middle, reach, 8, ids);
   std::vector<std::pair<double, VertexId>> choices;
   for (const std::uint32_t other : ids) {
     const VertexId c = id(other);
-    if (c == a || c == b || dot(at(c) - middle, outward) <= 1e-3 * along) continue;
-    const double angle = angle_between(at(a) - at(c), at(b) - at(c));
+    if (c == a || c == b || dot(at(c) - middle, outward) <= 1e-3 * point(a).along(outward))
+      continue;
+    const double angle =
+        angle_between(point(a).squeezed(at(a) - at(c)), point(a).squeezed(at(b) - at(c)));
     if (angle > 0.1) choices.emplace_back(-angle, c);
   }
   std::sort(choices.begin(), choices.end());

@@ -6,22 +6,11 @@ namespace isolux {
 namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
-// Neighbours are this part of the radius of curvature times α_n apart, so that Delaunay edges,
-// which are up to 1.7 times as long, keep within α_n.
-constexpr double kTurnPerSize = 0.55;
-// Size in a strip, in widths of it; not less than this part of the spacing.
-constexpr double kStripWidths = 2;
-constexpr double kLeastStrip = 1.0 / 32;
-// No curvature makes points finer than this part of the largest size on their object, and no edge
-// between flat parts than that one.
-constexpr double kLeastSize = 1.0 / 64;
-constexpr double kLeastAtFolds = 1.0 / 8;
 // Sizes grow by this much a metre.
 constexpr double kGrading = 0.5;
 // The least distance of two points, and of a point from a crease, in sizes.
 constexpr double kApart = 0.85;
 constexpr double kFromCrease = 0.5;
-constexpr int kDirections = 8;
 
 }  // namespace
 
@@ -30,7 +19,8 @@ CoverPoints::CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t 
     : walk_(walk),
       spacing_(spacing),
       random_(seed),
-      grid_(walk.rays().scene().bounds().lower),
+      grid_(walk.rays().scene().bounds().lower, walk.rays().scene().objects.size()),
+      crease_grid_(walk.rays().scene().bounds().lower),
       keep_going_(std::move(keep_going)) {}
 
 /// Whether to go on; asked now and then, and once refused, refused for good.
@@ -47,110 +37,47 @@ double CoverPoints::fineness(double size) const {
   return std::max(1e-5 * size, 0.5 * walk_.rays().epsilon());
 }
 
-/// Whether most of the turn on the way from a point to `there`, `away` from it in direction d, is
-/// made at one edge between flat parts, which finer points would not make any flatter.
-bool CoverPoints::turns_at_once(const ZonePoint& point, const ZonePoint& there, double away,
-                                const Vec3& d) const {
-  constexpr int kHalvings = 4;
-  constexpr double kMost = 0.6;
-  double near = 0, far = away;
-  Vec3 before = point.normal, behind = there.normal;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double t = (near + far) / 2;
-    const auto found = walk_.step(point, point.position + d * t);
-    if (!found) return false;
-    if (angle_between(found->normal, before) < angle_between(found->normal, behind)) {
-      near = t, before = found->normal;
-    } else {
-      far = t, behind = found->normal;
-    }
-  }
-  return angle_between(before, behind) > kMost * angle_between(there.normal, point.normal);
-}
-
-CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const Vec3& first,
-                                                   double limit) const {
-  constexpr double kNear = 0.35;
-  const Vec3 second = cross(point.normal, first);
-  Surroundings around{limit};
-  const double most_turn = kTurnPerSize * walk_.normal_tolerance();
-  double curvature = 0, fold = 0;
-  // Over an edge so blunt that it counts as smooth, less turn than that would read as curvature.
-  const auto see_turn = [&](const ZonePoint& there, double away, const Vec3& d) {
-    const double turn = angle_between(there.normal, point.normal);
-    if (turn <= most_turn) return;
-    double& bend = turns_at_once(point, there, away, d) ? fold : curvature;
-    bend = std::max(bend, turn / away);
-  };
-  std::array<double, kDirections> ends;
-  ends.fill(std::numeric_limits<double>::infinity());
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = kTau * k / kDirections;
-    const Vec3 d = first * std::cos(angle) + second * std::sin(angle);
-    double near = 0, far = 0;
-    for (const double t : {kNear * limit, limit}) {
-      const auto found = walk_.step(point, point.position + d * t);
-      if (!found) {
-        far = t;
-        break;
-      }
-      near = t;
-      see_turn(*found, t, d);
-    }
-    if (far == 0) continue;
-    const Rim rim = walk_.rim(point, d, near, far, limit / 64);
-    if (rim.distance > 0) see_turn(rim.point, rim.distance, d);
-    const Vec3 on = tangential(d, rim.point.normal);
-    if (!walk_.step(rim.point, rim.point.position + on * (limit / 16))) {
-      ends[k] = rim.distance;
-      around.creases.push_back({d, rim.distance});
-      around.to_crease = std::min(around.to_crease, rim.distance);
-    }
-  }
-  const double least = std::min(limit, kLeastSize * largest_on(point));
-  around.size = std::clamp(most_turn / std::max(curvature, 1e-30), least, limit);
-  around.size =
-      std::min(around.size, std::clamp(most_turn / std::max(fold, 1e-30),
-                                       std::min(limit, kLeastAtFolds * largest_on(point)), limit));
-  for (int k = 0; k < kDirections / 2; ++k) {
-    const auto shortest = [&](int i) {
-      return ends[i] <= ends[(i + 1) % kDirections] &&
-             ends[i] <= ends[(i + kDirections - 1) % kDirections];
-    };
-    const double width = ends[k] + ends[k + kDirections / 2];
-    if (std::isfinite(width) && shortest(k) && shortest(k + kDirections / 2)) {
-      around.size = std::min(
-          around.size, std::max(kStripWidths * width, std::min(limit, kLeastStrip * spacing_)));
-    }
-  }
-  return around;
-}
-
-double CoverPoints::graded(const ZonePoint& point, double size) const {
+/// The spacing at a point that is no more than `most` and than spacings nearby on the same surface
+/// let grow; beside stretched ones, stretched as they are.
+PointSpacing CoverPoints::graded(const ZonePoint& point, const PointSpacing& most) const {
   thread_local std::vector<std::uint32_t> ids;
-  grid_.query(point.position, size / kGrading, 3, ids);
+  grid_.query(point.surface.object, point.position, most.size / kGrading, 3, ids);
+  PointSpacing spacing = most;
+  double longest = most.longest();
   for (const std::uint32_t id : ids) {
     const CoverPoint& q = points_[id];
     if (dot(q.normal, point.normal) < 0.5) continue;
-    size = std::min(size, q.size + kGrading * distance(q.position, point.position));
+    const double grown = kGrading * distance(q.position, point.position);
+    longest = std::min(longest, q.longest() + grown);
+    if (q.size + grown >= spacing.size) continue;
+    spacing.size = q.size + grown;
+    if (most.stretch == 1) spacing.ruling = q.ruling;
   }
-  return size;
+  spacing.stretch = std::max(1.0, longest / spacing.size);
+  if (spacing.stretch > 1) spacing.ruling = tangential(spacing.ruling, point.normal);
+  if (!(length_squared(spacing.ruling) > 0.5)) spacing.ruling = {}, spacing.stretch = 1;
+  return spacing;
 }
 
-bool CoverPoints::crowded(const ZonePoint& point, double size) const {
+bool CoverPoints::crowded(const ZonePoint& point, const PointSpacing& spacing) const {
   thread_local std::vector<std::uint32_t> ids;
-  grid_.query(point.position, kApart * size, 1, ids);
+  grid_.query(point.surface.object, point.position, kApart * spacing.longest(), 1, ids);
+  return crowded_by(ids, point, spacing);
+}
+
+bool CoverPoints::crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
+                             const PointSpacing& spacing) const {
   return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
     const CoverPoint& q = points_[id];
     const Vec3 d = q.position - point.position;
-    const double apart = (q.on_crease() ? 0.75 : 1) * kApart * std::min(size, q.size);
-    if (length_squared(d) >= apart * apart) return false;
+    const double apart = (q.on_crease() ? 0.75 : 1) * kApart;
+    if (spacing.measure(d) >= apart * spacing.size || q.measure(d) >= apart * q.size) return false;
     if (dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
     // Of another sheet close by, where the height between them is not that of a curved surface.
     const double height = std::abs(dot(d, point.normal));
     if (height <= (length(q.normal - point.normal) + 1e-3) * length(d)) return true;
     const auto there = walk_.over(point, q.position);
-    return there && distance(there->position, q.position) < 1e-3 * size;
+    return there && distance(there->position, q.position) < 1e-3 * spacing.size;
   });
 }
 
@@ -160,21 +87,23 @@ void CoverPoints::add(const CoverPoint& point, const Surroundings& around) {
   surroundings_.push_back(around);
   surroundings_.back().creases.clear();
   along_crease_.emplace_back();
-  grid_.insert(id, point.position, point.size);
+  grid_.insert(id, point.surface.object, point.position, point.longest());
+  if (point.on_crease()) crease_grid_.insert(id, point.position, point.longest());
   front_.push({point.size, id});
 }
 
-/// The largest size on the object of a point.
+/// The largest size on the object of a point: a quarter of the object, half of a small one.
 double CoverPoints::largest_on(const ZonePoint& point) const {
   const Object& object = walk_.rays().scene().objects[point.surface.object];
-  return std::min(spacing_, 0.25 * object.shape->bounds().diagonal());
+  const double across = object.shape->bounds().diagonal();
+  return std::min(spacing_, across * std::clamp(0.5 - across / spacing_, 0.25, 0.5));
 }
 
 void CoverPoints::grow_from(const ZonePoint& point) {
   beyond_.push_back(point);
   for (std::size_t next = 0; next < beyond_.size() && going(); ++next) {
     const ZonePoint from = beyond_[next];
-    offer(from, largest_on(from));
+    offer(from, {largest_on(from)});
     spawn_all();
   }
   beyond_.clear();
@@ -195,7 +124,7 @@ void CoverPoints::settle() {
   const std::vector<Surroundings> around = std::move(surroundings_);
   const auto along = std::move(along_crease_);
   points_.clear(), surroundings_.clear(), along_crease_.clear();
-  grid_ = GradedGrid(walk_.rays().scene().bounds().lower);
+  grid_.clear(), crease_grid_.clear();
 
   std::vector<std::uint32_t> ids(points.size());
   std::vector<Front> between;
@@ -223,49 +152,60 @@ void CoverPoints::settle() {
   while (!beyond_.empty() && going()) {
     const ZonePoint point = beyond_.back();
     beyond_.pop_back();
-    offer(point, largest_on(point));
+    offer(point, {largest_on(point)});
     spawn_all();
   }
 }
 
-void CoverPoints::offer(const ZonePoint& point, double limit) {
-  if (crowded(point, limit)) return;
+void CoverPoints::offer(const ZonePoint& point, const PointSpacing& most) {
+  if (crowded(point, most)) return;
   const Frame frame(point.normal);
   const double angle = kTau * random_.uniform();
   const Vec3 first = frame.u * std::cos(angle) + frame.v * std::sin(angle);
-  const Surroundings around = look_around(point, first, limit);
+  const Surroundings around = look_around(point, first, most);
   for (const Ending& ending : around.creases) {
-    if (ending.distance > 1.2 * around.size) continue;
-    crease_seeds_.push_back({point, ending.direction, ending.distance, around.size});
+    const double size = around.along(ending.direction);
+    if (ending.distance > 1.2 * size) continue;
+    crease_seeds_.push_back({point, ending.direction, ending.distance, size});
   }
   run_creases();
   accept(point, around);
 }
 
 void CoverPoints::accept(const ZonePoint& point, const Surroundings& around) {
-  const double size = graded(point, around.size);
-  if (around.to_crease < kFromCrease * size || crowded(point, size)) return;
   CoverPoint accepted;
   static_cast<ZonePoint&>(accepted) = point;
-  accepted.size = size;
+  static_cast<PointSpacing&>(accepted) = graded(point, around);
+  if (around.to_crease < kFromCrease * accepted.size || crowded(point, accepted)) return;
   add(accepted, around);
 }
 
 void CoverPoints::spawn(std::uint32_t id) {
   constexpr int kTries = 14;
+  constexpr double kFarthest = 1.3;  // children, in sizes
   const CoverPoint parent = points_[id];
   const Frame frame(parent.normal);
   const double first = kTau * random_.uniform();
+  // All that may crowd a child; those that are born meanwhile come behind.
+  std::vector<std::uint32_t> ids;
+  grid_.query(parent.surface.object, parent.position, (kFarthest + kApart) * parent.longest(),
+              kFarthest + kApart, ids);
+  std::size_t known = points_.size();
   for (int k = 0; k < kTries; ++k) {
     const double angle = first + kTau * k / kTries;
-    const double r = parent.size * (1 + 0.3 * random_.uniform());
-    const Vec3 d = (frame.u * std::cos(angle) + frame.v * std::sin(angle)) * r;
+    const double r = parent.size * (1 + (kFarthest - 1) * random_.uniform());
+    const Vec3 d = parent.stretched((frame.u * std::cos(angle) + frame.v * std::sin(angle)) * r);
     if (dot(d, parent.inward) < 0) continue;
     ZonePoint guess = parent;
     guess.position += d;
-    if (crowded(guess, parent.size)) continue;
+    for (; known < points_.size(); ++known) ids.push_back(static_cast<std::uint32_t>(known));
+    if (crowded_by(ids, guess, parent)) continue;
     const auto child = walk_.step(parent, guess.position);
-    if (child) offer(*child, std::min(spacing_, 1.5 * parent.size));
+    if (!child) continue;
+    adjoin(parent, *child);
+    PointSpacing most = parent;
+    most.size = std::min(spacing_, 1.5 * parent.size);
+    offer(*child, most);
   }
 }
 

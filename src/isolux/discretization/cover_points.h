@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "isolux/core/random.h"
-#include "isolux/discretization/graded_grid.h"
+#include "isolux/discretization/point_spacing.h"
+#include "isolux/discretization/sheet_grid.h"
 #include "isolux/discretization/surface_walk.h"
 
 namespace isolux {
 
 /// A point of a cover before it is a vertex.
-struct CoverPoint : ZonePoint {
-  double size = 0;  ///< the distance to its neighbours that is wanted here, m
-  Vec3 inward;      ///< unit, on creases: from the crease into the surface; else zero
+struct CoverPoint : ZonePoint, PointSpacing {
+  Vec3 inward;  ///< unit, on creases: from the crease into the surface; else zero
   bool on_crease() const { return length_squared(inward) > 0; }
 };
 
@@ -35,15 +35,14 @@ class CoverPoints {
   void settle();
 
   std::span<const CoverPoint> points() const { return points_; }
-  const GradedGrid& grid() const { return grid_; }
+  const SheetGrid& grid() const { return grid_; }
 
  private:
   struct Ending {  // of the surface, in a direction
     Vec3 direction;
     double distance;  // m; a crease is there, within some 2 % of the size
   };
-  struct Surroundings {
-    double size;
+  struct Surroundings : PointSpacing {
     double to_crease = std::numeric_limits<double>::infinity();
     std::vector<Ending> creases = {};
   };
@@ -51,23 +50,35 @@ class CoverPoints {
     ZonePoint from;
     Vec3 direction;
     double distance;
-    double size;
+    double size;  // m: the spacing in that direction
   };
   struct CreasePoint {
     ZonePoint point;  // on the crease, or less than the walk's tolerance inside
     Vec3 outward;     // unit, tangential, across the crease
-    double size;
+    PointSpacing spacing;
     // Where it is a corner: a point on the other crease, and the direction across that.
     bool corner = false;
     ZonePoint turn_off_from = {};
     Vec3 turn_off = {};
+
+    /// Along the crease, to the left seen from outside the surface when looking outward.
+    Vec3 left() const { return normalized(cross(point.normal, outward)); }
+    double step() const { return spacing.along(left()); }  // m: to the crease's next point
+    void shorten(double step);
   };
   bool turns_at_once(const ZonePoint& point, const ZonePoint& there, double away,
                      const Vec3& d) const;
-  Surroundings look_around(const ZonePoint& point, const Vec3& first, double limit) const;
-  bool crowded(const ZonePoint& point, double size) const;
-  double graded(const ZonePoint& point, double size) const;
-  void offer(const ZonePoint& point, double limit);
+  Surroundings look_around(const ZonePoint& point, const Vec3& first, const PointSpacing& most);
+  Ending ending(const ZonePoint& point, const Vec3& d, double near, double far, Rim& rim) const;
+  void look_along(const ZonePoint& point, Surroundings& around) const;
+  void adjoin(const ZonePoint& a, const ZonePoint& b) {
+    grid_.adjoin(a.surface.object, b.surface.object);
+  }
+  bool crowded(const ZonePoint& point, const PointSpacing& spacing) const;
+  bool crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
+                  const PointSpacing& spacing) const;
+  PointSpacing graded(const ZonePoint& point, const PointSpacing& most) const;
+  void offer(const ZonePoint& point, const PointSpacing& most);
   double largest_on(const ZonePoint& point) const;
   void spawn(std::uint32_t parent);
   void accept(const ZonePoint& point, const Surroundings& around);
@@ -77,7 +88,7 @@ class CoverPoints {
   bool going();
 
   void trace(const CreaseSeed& seed);
-  bool known(const SurfacePoint& point, const Vec3& outward, double size) const;
+  bool known(const SurfacePoint& point, const Vec3& outward) const;
   std::optional<Vec3> outward_at(const ZonePoint& rim, const Vec3& direction, double size) const;
   std::optional<CreasePoint> next_on_crease(const CreasePoint& from, const Vec3& along,
                                             double step) const;
@@ -92,12 +103,13 @@ class CoverPoints {
   void commit(const std::vector<CreasePoint>& chain, bool closed);
   void look_across(const CreasePoint& crease);
   double fineness(double size) const;
-  double sized(const CreasePoint& crease, double limit) const;
+  PointSpacing spacing_inside(const CreasePoint& crease, double limit);
 
   const SurfaceWalk& walk_;
   double spacing_;
   Random random_;
-  GradedGrid grid_;
+  SheetGrid grid_;
+  GradedGrid crease_grid_;  // those on creases, of all surfaces
   std::vector<CoverPoint> points_;
   std::vector<Surroundings> surroundings_;                // of the points, their creases left out
   std::vector<std::vector<std::uint32_t>> along_crease_;  // neighbours on the same crease

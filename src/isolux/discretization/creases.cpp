@@ -22,18 +22,34 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return distance(p, a + ab * t);
 }
 
-/// Along the crease, to the left seen from outside the surface when looking outward.
-Vec3 left_of(const Vec3& normal, const Vec3& outward) { return cross(normal, outward); }
+/// By how much (rad) a crease may turn from point to point, a step (m) apart: more where it is
+/// small beside `spacing`.
+double most_turn(double step, double spacing) {
+  constexpr double kSmall = 1.0 / 32, kMost = 0.42;
+  return std::clamp(kCreaseTurn * kSmall * spacing / step, kCreaseTurn, kMost);
+}
 
 }  // namespace
 
+void CoverPoints::CreasePoint::shorten(double most) {
+  const double along = step(), squeeze = spacing.measure(left());
+  if (along <= most) return;
+  // Along the ruling, or across it.
+  if (squeeze < 0.7 && most > spacing.size) {
+    spacing.stretch = most / spacing.size;
+  } else {
+    spacing.size *= most / along;
+  }
+}
+
 /// Whether the crease is traced already where `point` lies on it, `outward` across it.
-bool CoverPoints::known(const SurfacePoint& point, const Vec3& outward, double size) const {
+bool CoverPoints::known(const SurfacePoint& point, const Vec3& outward) const {
   thread_local std::vector<std::uint32_t> ids;
-  grid_.query(point.position, 1.7 * size, 1.7, ids);
+  ids.clear();
+  crease_grid_.query(point.position, 1.7 * spacing_, 1.7, ids);
   return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
     const CoverPoint& q = points_[id];
-    if (!q.on_crease() || dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
+    if (dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
     if (dot(q.inward, outward) > -0.3) return false;
     const double near = 0.08 * q.size;
     if (distance(q.position, point.position) < near) {
@@ -73,13 +89,14 @@ std::optional<Vec3> CoverPoints::outward_at(const ZonePoint& rim, const Vec3& di
   return outward;
 }
 
-/// The size at a point of a crease, seen from a hair inside.
-double CoverPoints::sized(const CreasePoint& crease, double limit) const {
-  const auto inside =
-      walk_.over(crease.point, crease.point.position - crease.outward * (0.02 * limit));
-  if (!inside) return limit;
-  return graded(*inside,
-                look_around(*inside, tangential(crease.outward, inside->normal), limit).size);
+/// The spacing at a point of a crease, seen from a hair inside.
+PointSpacing CoverPoints::spacing_inside(const CreasePoint& crease, double limit) {
+  std::optional<ZonePoint> inside;
+  for (double hair = 0.02 * limit; !inside && hair > 1e-4 * limit; hair *= 0.2) {
+    inside = walk_.over(crease.point, crease.point.position - crease.outward * hair);
+  }
+  if (!inside) return {limit};
+  return graded(*inside, look_around(*inside, tangential(crease.outward, inside->normal), {limit}));
 }
 
 /// The point of the crease a step further on; nothing where it turns away, or something stands in
@@ -87,7 +104,7 @@ double CoverPoints::sized(const CreasePoint& crease, double limit) const {
 std::optional<CoverPoints::CreasePoint> CoverPoints::next_on_crease(const CreasePoint& from,
                                                                     const Vec3& along,
                                                                     double step) const {
-  const double aside = kAside * step;
+  const double aside = kAside * step * from.spacing.measure(along);
   const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
   if (!inside) return std::nullopt;
   const auto ahead =
@@ -95,8 +112,8 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::next_on_crease(const Crease
   if (!ahead) return std::nullopt;
   const Vec3 outward = tangential(from.outward, ahead->normal);
   if (walk_.step(*ahead, ahead->position + outward * (2.2 * aside))) return std::nullopt;
-  const Rim rim = walk_.rim(*ahead, outward, 0, 2.2 * aside, fineness(from.size));
-  return CreasePoint{rim.point, outward, from.size};
+  const Rim rim = walk_.rim(*ahead, outward, 0, 2.2 * aside, fineness(step));
+  return CreasePoint{rim.point, outward, from.spacing};
 }
 
 /// The corner where the crease of `a`, followed in `along`, meets the crease of `b`; nothing where
@@ -111,15 +128,16 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a
   const Vec3 outward = normalized(a.outward + tangential(b.outward, a.point.normal));
   if (length_squared(outward) < 0.5) return std::nullopt;
   const Vec3 meeting = a.point.position + along * x;
-  for (const double depth : {0.2 * step, 0.05 * step}) {
+  const double across = step * a.spacing.measure(along);
+  for (const double depth : {0.2 * across, 0.05 * across}) {
     const auto inside = walk_.over(a.point, meeting - outward * depth);
     if (!inside) continue;
     const Vec3 ahead = tangential(outward, inside->normal);
     if (walk_.step(*inside, inside->position + ahead * (2 * depth))) continue;
-    const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(a.size));
-    if (std::abs(rim.distance - depth) > 0.02 * step) continue;
+    const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(across));
+    if (std::abs(rim.distance - depth) > 0.02 * across) continue;
     const double slant = std::max(0.1, dot(outward, a.outward));
-    return CreasePoint{rim.point, ahead * slant, a.size, true, b.point, b.outward};
+    return CreasePoint{rim.point, ahead * slant, a.spacing, true, b.point, b.outward};
   }
   return std::nullopt;
 }
@@ -129,16 +147,16 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a
 std::optional<CoverPoints::CreasePoint> CoverPoints::corner_ahead(const CreasePoint& from,
                                                                   const Vec3& along, double step,
                                                                   double reached) const {
-  const double aside = kAside * std::max(reached, 0.1 * step);
+  const double aside = kAside * std::max(reached, 0.1 * step) * from.spacing.measure(along);
   const auto inside = walk_.over(from.point, from.point.position - from.outward * aside);
   if (!inside) return std::nullopt;
   const auto meet = [&](const ZonePoint& start, const Vec3& direction,
                         double length) -> std::optional<CreasePoint> {
     if (walk_.step(start, start.position + direction * length)) return std::nullopt;
-    const Rim rim = walk_.rim(start, direction, 0, length, fineness(from.size));
-    const auto outward = outward_at(rim.point, direction, from.size);
+    const Rim rim = walk_.rim(start, direction, 0, length, fineness(step));
+    const auto outward = outward_at(rim.point, direction, from.spacing.size);
     if (!outward) return std::nullopt;
-    return corner(from, along, {rim.point, *outward, from.size}, step);
+    return corner(from, along, {rim.point, *outward, from.spacing}, step);
   };
   const Vec3 ahead = tangential(along, inside->normal);
   if (auto found = meet(*inside, ahead, 1.5 * step)) return found;
@@ -169,16 +187,17 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
   Vec3 along = direction;
   const double least = kLeastStep * largest_on(start.point);
   for (;;) {
-    from.size = std::max(least, sized(from, std::min(spacing_, 1.5 * from.size)));
+    from.spacing = spacing_inside(from, std::min(spacing_, 1.5 * from.step()));
+    from.spacing.size *= std::max(1.0, least / from.step());
     const auto turned = [&](CreasePoint& next) -> double {
-      const auto outward = outward_at(next.point, next.outward, from.size);
+      const auto outward = outward_at(next.point, next.outward, from.spacing.size);
       if (!outward) return 10;
       next.outward = *outward;
       const Vec3 before = tangential(from.outward, next.point.normal);
       return angle_between(before, next.outward);
     };
     const auto along_at = [&](const CreasePoint& p) {
-      const Vec3 left = left_of(p.point.normal, p.outward);
+      const Vec3 left = p.left();
       return dot(left, along) > 0 ? left : -left;
     };
     const auto go_to_corner = [&](const CreasePoint& other, double length) {
@@ -187,7 +206,8 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       return meeting.has_value();
     };
 
-    double step = from.size;
+    double step = from.step();
+    const double most = most_turn(step, spacing_);
     auto next = next_on_crease(from, along, step);
     if (!next) {
       // As far as it goes; there, another crease should begin.
@@ -205,7 +225,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       if (near > least) {
         next = next_on_crease(from, along, 0.7 * near);
         CreasePoint there = next.value_or(from);
-        if (next && turned(there) > kCreaseTurn) {
+        if (next && turned(there) > most) {
           step = 0.7 * near;
         } else {
           next.reset();
@@ -221,19 +241,19 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       }
     }
     double turn = turned(*next);
-    if (turn > 1.1 * kCreaseTurn) {
+    if (turn > 1.1 * most) {
       if (turn < 9 && go_to_corner(*next, step)) return;
-      for (int halving = 0; halving < 8 && turn > 1.1 * kCreaseTurn; ++halving) {
-        step *= std::clamp(0.95 * kCreaseTurn / turn, 0.25, 0.7);
+      for (int halving = 0; halving < 8 && turn > 1.1 * most; ++halving) {
+        step *= std::clamp(0.95 * most / turn, 0.25, 0.7);
         next = next_on_crease(from, along, step);
         if (!next) return;
         turn = turned(*next);
-        if (turn > 1.1 * kCreaseTurn && turn < 9 && go_to_corner(*next, step)) return;
+        if (turn > 1.1 * most && turn < 9 && go_to_corner(*next, step)) return;
       }
-      if (turn > 1.1 * kCreaseTurn || step < least) return;
-      next->size = step;
-      from.size = std::min(from.size, step);
+      if (turn > 1.1 * most || step < least) return;
+      next->shorten(step);
     }
+    adjoin(from.point, next->point);
     // Round to where the chain began?
     if (chain.size() >= 3 &&
         distance(next->point.position, chain.front().point.position) < 0.7 * step &&
@@ -241,7 +261,7 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       closed = true;
       return;
     }
-    if (known(next->point, next->outward, from.size) || met(chain, *next, step)) return;
+    if (known(next->point, next->outward) || met(chain, *next, step)) return;
     along = along_at(*next);
     chain.push_back(*next);
     from = *next;
@@ -255,10 +275,11 @@ void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
   const CreasePoint& before = chain[n - 3];
   const Vec3 corner = chain[n - 1].point.position;
   const double left = distance(chain[n - 2].point.position, corner);
-  if (left > 0.6 * chain[n - 2].size) return;
+  const double step = chain[n - 2].step();
+  if (left > 0.6 * step) return;
   const Vec3 way = corner - before.point.position;
   const double half = 0.5 * length(way);
-  if (half < 0.6 * chain[n - 2].size) {
+  if (half < 0.6 * step) {
     chain.erase(chain.end() - 2);
   } else if (auto middle = next_on_crease(before, tangential(way, before.point.normal), half)) {
     middle->outward = chain[n - 2].outward;
@@ -274,13 +295,17 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
     along_crease_[b].push_back(a);
   };
   for (const CreasePoint& crease : chain) {
+    adjoin(chain.front().point, crease.point);
+    if (crease.corner) adjoin(crease.point, crease.turn_off_from);
     // Corners are reached from both creases.
     std::uint32_t same = kNone;
     thread_local std::vector<std::uint32_t> ids;
-    grid_.query(crease.point.position, kSame * crease.size, 1, ids);
+    const double same_place = kSame * crease.spacing.size;
+    ids.clear();
+    crease_grid_.query(crease.point.position, same_place, 1, ids);
     for (const std::uint32_t id : ids) {
       const CoverPoint& q = points_[id];
-      if (q.on_crease() && distance(q.position, crease.point.position) < kSame * crease.size &&
+      if (distance(q.position, crease.point.position) < same_place &&
           dot(q.normal, crease.point.normal) > walk_.cos_normal_tolerance() &&
           dot(q.inward, normalized(crease.outward)) < -0.5 &&
           walk_.over(q, crease.point.position)) {
@@ -289,7 +314,8 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
     }
     if (same == kNone) {
       const double shallow = length(crease.outward);
-      const double inset = std::max(kInset * crease.size, kInsetEpsilons * walk_.rays().epsilon());
+      const double inset =
+          std::max(kInset * crease.spacing.size, kInsetEpsilons * walk_.rays().epsilon());
       std::optional<ZonePoint> inside;
       for (double depth = inset / shallow; !inside && depth < 40 * inset; depth *= 2) {
         inside =
@@ -299,14 +325,16 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
         previous = kNone;
         continue;
       }
+      adjoin(crease.point, *inside);
       CoverPoint point;
       static_cast<ZonePoint&>(point) = *inside;
-      point.size = crease.size;
+      static_cast<PointSpacing&>(point) = crease.spacing;
       point.inward = -tangential(crease.outward, point.normal);
       same = static_cast<std::uint32_t>(points_.size());
-      add(point, {point.size});
+      add(point, {crease.spacing});
       if (crease.corner) {
-        crease_seeds_.push_back({crease.turn_off_from, crease.turn_off, 0, crease.size});
+        crease_seeds_.push_back(
+            {crease.turn_off_from, crease.turn_off, 0, crease.spacing.longest()});
       }
     }
     if (previous != kNone && previous != same) link(previous, same);
@@ -318,9 +346,10 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
 
 /// Looks for the surfaces that adjoin a crease, by rays from around it, wide and narrow ones.
 void CoverPoints::look_across(const CreasePoint& crease) {
+  const double size = crease.spacing.size;
   const Vec3 &n = crease.point.normal, m = normalized(crease.outward);
   thread_local std::vector<SurfaceHit> hits;
-  for (const double around : {0.05 * crease.size, 0.005 * crease.size, 0.0005 * crease.size}) {
+  for (const double around : {0.05 * size, 0.005 * size, 0.0005 * size}) {
     const Vec3 past = crease.point.position + m * (0.2 * around);
     const auto look = [&](const Vec3& from, const Vec3& direction) {
       walk_.rays().all_hits({from, direction}, {0, 3 * around}, hits);
@@ -342,15 +371,17 @@ void CoverPoints::trace(const CreaseSeed& seed) {
   const double near = std::max(0.0, seed.distance - slack), far = seed.distance + slack;
   if (walk_.step(seed.from, seed.from.position + seed.direction * far)) return;
   const Rim rim = walk_.rim(seed.from, seed.direction, near, far, tolerance);
+  adjoin(seed.from, rim.point);
   const Vec3 reached = tangential(seed.direction, rim.point.normal);
   const auto outward = outward_at(rim.point, reached, size);
-  if (!outward || known(rim.point, *outward, size)) return;
-  CreasePoint start{rim.point, *outward, size};
-  start.size = std::max(sized(start, size), kLeastStep * largest_on(rim.point));
+  if (!outward || known(rim.point, *outward)) return;
+  CreasePoint start{rim.point, *outward, {size}};
+  start.spacing = spacing_inside(start, size);
+  start.spacing.size *= std::max(1.0, kLeastStep * largest_on(rim.point) / start.step());
 
   std::vector<CreasePoint> chain{start}, back{start};
   bool closed = false;
-  const Vec3 left = left_of(start.point.normal, start.outward);
+  const Vec3 left = start.left();
   follow(start, left, chain, closed);
   if (!closed) {
     bool unused = false;

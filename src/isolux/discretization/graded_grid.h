@@ -16,24 +16,39 @@ class GradedGrid {
 
   void insert(std::uint32_t id, const Vec3& position, double size) {
     const int level = static_cast<int>(std::ceil(std::log2(size)));
-    levels_.try_emplace(level, origin_, std::ldexp(4.0, level)).first->second.insert(id, position);
+    const auto found =
+        levels_.try_emplace(level, Level{{origin_, std::ldexp(4.0, level)}, {}}).first;
+    found->second.grid.insert(id, position);
+    found->second.bounds.include(position);
   }
 
-  /// A superset of the ids within `radius` and within `sizes` times their own size of `center`;
-  /// into `ids` (cleared first).
+  /// The ids within `radius` and within `sizes` times their own size of `center`, and some up to
+  /// twice as many sizes away; put behind `ids`.
   void query(const Vec3& center, double radius, double sizes,
              std::vector<std::uint32_t>& ids) const {
-    ids.clear();
     thread_local std::vector<std::uint32_t> found;
-    for (const auto& [level, grid] : levels_) {
-      grid.query(center, std::min(radius, sizes * std::ldexp(1.0, level)), found);
+    for (const auto& [level, points] : levels_) {
+      const double reach = std::min(radius, sizes * std::ldexp(1.0, level));
+      const Vec3 around = Vec3{1, 1, 1} * reach, lower = center - around, upper = center + around;
+      const Bounds& b = points.bounds;
+      if (lower.x > b.upper.x || lower.y > b.upper.y || lower.z > b.upper.z ||
+          upper.x < b.lower.x || upper.y < b.lower.y || upper.z < b.lower.z) {
+        continue;
+      }
+      points.grid.query(center, reach, found);
       ids.insert(ids.end(), found.begin(), found.end());
     }
   }
 
+  void clear() { levels_.clear(); }
+
  private:
+  struct Level {
+    VertexGrid grid;
+    Bounds bounds;  // of its points
+  };
   Vec3 origin_;
-  std::map<int, VertexGrid> levels_;
+  std::map<int, Level> levels_;
 };
 
 }  // namespace isolux

@@ -18,11 +18,11 @@ std::size_t VertexGrid::CellHash::operator()(const Cell& c) const {
 }
 
 void VertexGrid::insert(std::uint32_t id, const Vec3& position) {
-  voxels_[cell_of(position)].push_back(id);
+  voxels_[cell_of(position)].push_back({position, id});
 }
 
 void VertexGrid::erase(std::uint32_t id, const Vec3& position) {
-  std::erase(voxels_[cell_of(position)], id);
+  std::erase_if(voxels_[cell_of(position)], [id](const Entry& entry) { return entry.id == id; });
 }
 
 void VertexGrid::query(const Vec3& center, double radius, std::vector<std::uint32_t>& ids) const {
@@ -34,7 +34,9 @@ void VertexGrid::query(const Vec3& center, double radius, std::vector<std::uint3
       for (std::int32_t x = lower.x; x <= upper.x; ++x) {
         const auto voxel = voxels_.find({x, y, z});
         if (voxel == voxels_.end()) continue;
-        ids.insert(ids.end(), voxel->second.begin(), voxel->second.end());
+        for (const Entry& entry : voxel->second) {
+          if (length_squared(entry.position - center) <= radius * radius) ids.push_back(entry.id);
+        }
       }
     }
   }

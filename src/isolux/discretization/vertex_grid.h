@@ -19,8 +19,7 @@ class VertexGrid {
   /// Takes an id out that was inserted at this position.
   void erase(std::uint32_t id, const Vec3& position);
 
-  /// Every id in the voxels that the cube of half-side `radius` around `center` touches: a
-  /// superset of those within `radius`, in no particular but a reproducible order; into `ids`
+  /// Every id within `radius` of `center`, in no particular but a reproducible order; into `ids`
   /// (cleared first).
   void query(const Vec3& center, double radius, std::vector<std::uint32_t>& ids) const;
 
@@ -32,11 +31,15 @@ class VertexGrid {
   struct CellHash {
     std::size_t operator()(const Cell& c) const;
   };
+  struct Entry {
+    Vec3 position;
+    std::uint32_t id;
+  };
   Cell cell_of(const Vec3& p) const;
 
   Vec3 origin_;
   double cell_;
-  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> voxels_;
+  std::unordered_map<Cell, std::vector<Entry>, CellHash> voxels_;
 };
 
 }  // namespace isolux

@@ -24,21 +24,32 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   std::vector<double> deviation(receivers.size());
   lights.irradiance(receivers, direct, deviation);
 
-  // Few points deserve more rays than each of very many vertices.
+  // Few points deserve more rays than each of very many vertices; where little light comes from
+  // small parts of the hemisphere, up to twice as many a side, twice over.
   constexpr double kFinerGrid = 1.5;
+  constexpr double kRough = 0.02;
+  constexpr int kDoublings = 2;
+  // Of what the errors of all emitters would sum up to, were they alike: some cancel.
+  constexpr double kAlike = 0.8;
   const int grid =
       std::clamp(static_cast<int>(std::lround(kFinerGrid * std::sqrt(solved.gather_rays))), 1,
                  HemisphereGather::kFinestGrid);
   std::vector<Illumination> result(receivers.size());
   parallel_for(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Landing> row(static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid));
+    std::vector<Landing> row;
     for (std::size_t i = begin; i < end; ++i) {
-      hemisphere.trace(receivers[i], grid, seed, i, row);
-      const Gathered indirect = hemisphere.gather_with_error(row, irradiance);
-      result[i].irradiance = direct[i] + indirect.irradiance;
+      Gathered indirect;
+      for (int side = grid, finest = std::min(grid << kDoublings, HemisphereGather::kFinestGrid);;
+           side = std::min(2 * side, finest)) {
+        row.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+        hemisphere.trace(receivers[i], side, seed, i, row);
+        indirect = hemisphere.gather_with_error(row, irradiance);
+        result[i].irradiance = direct[i] + indirect.irradiance;
+        if (side == finest || indirect.error <= kRough * luminance(result[i].irradiance)) break;
+      }
       const double emitters = luminance(hemisphere.reflected(row, errors));
       result[i].error =
-          std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), emitters) +
+          std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), kAlike * emitters) +
           solved.emitter_error;
     }
   });
