@@ -7,6 +7,7 @@
 #include "isolux/core/parallel.h"
 #include "isolux/core/random.h"
 #include "isolux/discretization/coverage.h"
+#include "isolux/discretization/point_spacing.h"
 #include "isolux/discretization/split_points.h"
 #include "support/scenes.h"
 
@@ -94,6 +95,31 @@ TEST_P(Cover, LeavesNoSurfaceOutAndNoneTwice) {
   EXPECT_GT(coverage.covered, 0.995 * coverage.area);
   EXPECT_NEAR(coverage.area, GetParam().area, 0.02 * GetParam().area);
   EXPECT_LT(thin_part(mesh), 0.05);
+}
+
+/// A tube a hundred times as long as it is thick takes triangles as long as the spacing allows.
+TEST(CoverOfThinTubes, IsLongAlongThem) {
+  const double radius = 0.005, length = 1;
+  const Scene scene = scene_of(
+      "materials: {m: {reflectance: 0.5}}\nobjects: [{shape: {cylinder: {from: [0, 0, 0], to: "
+      "[0.6, 0, 0.8], radius: 0.005, open: true}}, material: m, sides: front}]");
+  const RayCaster rays(scene);
+  Triangulation mesh({0.8, 1e-9, 0.77}, rays.scene().bounds());
+  cover(mesh, rays, {0.4, 1});
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  EXPECT_NEAR(area_of(mesh), 2 * kPi * radius * length, 0.05 * 2 * kPi * radius * length);
+  const Coverage coverage = coverage_of(mesh, rays, 100'000, 7);
+  EXPECT_GT(coverage.covered, 0.99 * coverage.area);
+  EXPECT_LT(mesh.triangle_count(), 600u);
+}
+
+TEST(PointSpacing, MeasuresAsWhereItIsSqueezedAlongTheRuling) {
+  const PointSpacing spacing{0.1, {0, 0, 1}, 8};
+  EXPECT_DOUBLE_EQ(spacing.longest(), 0.8);
+  EXPECT_NEAR(spacing.measure({0.1, 0, 0}), 0.1, 1e-15);
+  EXPECT_NEAR(spacing.measure({0, 0, 0.8}), 0.1, 1e-15);
+  EXPECT_NEAR(spacing.along({0, 0, 1}), 0.8, 1e-15);
+  EXPECT_NEAR(distance(spacing.squeezed(spacing.stretched({3, 4, 5})), {3, 4, 5}), 0, 1e-14);
 }
 
 TEST_P(Cover, IsTheSameOnAnyNumberOfThreads) {
