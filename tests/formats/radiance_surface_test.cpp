@@ -5,22 +5,12 @@
 #include "formats/radiance_text.h"
 #include "isolux/formats/radiance/write_radiance.h"
 #include "isolux/geometry/box.h"
-#include "isolux/geometry/cylinder.h"
-#include "isolux/geometry/disk.h"
-#include "isolux/geometry/parallelogram.h"
-#include "isolux/geometry/polygon.h"
-#include "isolux/geometry/reversed.h"
-#include "isolux/geometry/shape_description.h"
-#include "isolux/geometry/sphere.h"
-#include "isolux/geometry/triangle_mesh.h"
-#include "isolux/scene/writer.h"
 
 namespace isolux {
 namespace {
 using std::numbers::pi;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// The only object of a primitive with that type and those numbers.
 Object surface(const std::string& type, const std::string& numbers) {
@@ -117,79 +107,6 @@ TEST(RadianceSurface, WideSourcesMeshesAndInstancesAreNoted) {
   EXPECT_THAT(file.notes,
               ElementsAre(HasSubstr("'source' left out: wider than"), HasSubstr("'mesh' left out"),
                           HasSubstr("'instance' left out")));
-}
-
-// Native → Radiance → native: what Radiance can express comes back as it was.
-
-/// A scene with every kind of surface that Radiance has, in several materials, and lights.
-Scene varied_scene() {
-  const auto turned = [](std::shared_ptr<const Shape> shape) {
-    return std::make_shared<Reversed>(std::move(shape));
-  };
-  const Vec3 a{0.1, 0.2, 0.3}, b{1.1, -0.4, 2.3};
-  const std::vector<std::shared_ptr<const Shape>> shapes{
-      std::make_shared<Sphere>(a, 0.7),
-      turned(std::make_shared<Sphere>(a, 0.7)),
-      std::make_shared<Cylinder>(a, b, 0.3, false),
-      turned(std::make_shared<Cylinder>(a, b, 0.3, false)),
-      std::make_shared<Frustum>(a, b, 0.3, 0.1, false),
-      turned(std::make_shared<Frustum>(a, b, 0.3, 0, false)),
-      std::make_shared<Disk>(a, b, 0.4, 0.1),
-      std::make_shared<Disk>(a, b, 1.0 / 3),
-      std::make_shared<Parallelogram>(a, Vec3{1, 0, 1}, Vec3{0, 3, 1}),
-      std::make_shared<Polygon>(
-          std::vector<Vec3>{{0, 0, 1}, {3, 0, 1}, {3, 1, 1}, {1, 1, 1}, {0, 4, 1}}),
-      std::make_shared<TriangleMesh>(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                                     std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}}),
-  };
-  Scene scene;
-  scene.materials = {{"grey", gray(1.0 / 3)}, {"red", {0.7, 0.1, 0.05}}, {"black", {}}};
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const Sides sides = shapes[i]->solid() ? Sides::front : Sides::both;
-    const auto number = std::to_string(i);
-    scene.objects.push_back(
-        {"s" + number, shapes[i], static_cast<std::uint32_t>(i % 2), sides, {}});
-    scene.objects.push_back({"lamp" + number, shapes[i], 2, Sides::front, {900, 700, 100.0 / 3}});
-  }
-  return scene;
-}
-
-TEST(RadianceSurface, WhatIsWrittenIsReadBack) {
-  const Scene before = varied_scene();
-  const WrittenScene written = write_radiance(before);
-  EXPECT_THAT(written.notes, IsEmpty());
-  const SceneFile file = read_radiance_text(written.text);
-  EXPECT_THAT(file.notes, IsEmpty());
-  const Scene& after = file.scene;
-  ASSERT_EQ(after.objects.size(), before.objects.size());
-  for (std::size_t i = 0; i < before.objects.size(); ++i) {
-    const Object &x = before.objects[i], &y = after.objects[i];
-    EXPECT_EQ(x.name, y.name);
-    EXPECT_EQ(x.sides, y.sides) << x.name;
-    // A mesh of one triangle comes back as a polygon; all else is of its own kind.
-    if (x.shape->describe().kind != "mesh") {
-      EXPECT_EQ(x.shape->describe().kind, y.shape->describe().kind);
-    }
-    expect_near(x.shape->bounds().lower, y.shape->bounds().lower, 1e-9);
-    expect_near(x.shape->bounds().upper, y.shape->bounds().upper, 1e-9);
-    EXPECT_NEAR(surface_area(*x.shape).value(), surface_area(*y.shape).value(), 1e-9);
-    Hits there, here;
-    for (const Vec3& d : {Vec3{1, 0.2, 0.1}, Vec3{0, 0.1, 1}, Vec3{-0.3, 1, 0.2}}) {
-      x.shape->intersect({{0.2, 0.1, 0.4}, d}, there);
-      y.shape->intersect({{0.2, 0.1, 0.4}, d}, here);
-    }
-    ASSERT_EQ(there.size(), here.size());
-    for (std::size_t k = 0; k < here.size(); ++k) {
-      expect_near(there[k].normal, here[k].normal, 1e-9);
-    }
-    const Rgb r0 = before.material_of(static_cast<std::uint32_t>(i)).reflectance;
-    const Rgb r1 = after.material_of(static_cast<std::uint32_t>(i)).reflectance;
-    EXPECT_EQ(r0, r1) << x.name;
-    EXPECT_NEAR(x.exitance.r, y.exitance.r, 1e-9 * x.exitance.r);
-    EXPECT_NEAR(x.exitance.g, y.exitance.g, 1e-9 * x.exitance.g);
-    EXPECT_NEAR(x.exitance.b, y.exitance.b, 1e-9 * x.exitance.b);
-    EXPECT_NEAR(luminous_flux(x), luminous_flux(y), 1e-9 * luminous_flux(x));
-  }
 }
 
 TEST(RadianceSurface, ABoxComesBackAsItsSixFaces) {

@@ -4,10 +4,11 @@
 
 #include "formats/one_object.h"
 #include "isolux/core/file.h"
+#include "isolux/formats/radiance/write_radiance.h"
 #include "isolux/formats/save_scene.h"
 #include "isolux/formats/scene_file.h"
+#include "isolux/geometry/height_field.h"
 #include "isolux/geometry/sphere.h"
-#include "isolux/geometry/torus.h"
 
 namespace isolux {
 namespace {
@@ -38,7 +39,11 @@ TEST_F(SaveScene, TheExtensionNamesTheFormat) {
 }
 
 TEST_F(SaveScene, NothingIsWrittenWhereAnObjectCantBe) {
-  const Scene scene = one_object(std::make_shared<Torus>(Vec3{}, Vec3{0, 0, 1}, 2, 0.5));
+  // More than 10⁶ triangles.
+  const std::vector<std::vector<double>> heights(1000, std::vector<double>(1000, 0.5));
+  const Scene scene =
+      one_object(std::make_shared<HeightField>(Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, heights));
+  EXPECT_THAT(refusal(write_radiance, scene), StartsWith("object 'thing' can't be written: "));
   EXPECT_THROW(save_scene(scene, folder_ / "a.rad"), InputError);
   EXPECT_TRUE(fs::is_empty(folder_));
 }

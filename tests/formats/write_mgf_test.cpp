@@ -134,18 +134,6 @@ TEST(WriteMgf, WhatMgfLacksBecomesTrianglesWithANote) {
   EXPECT_LE(longest, 4096u);
 }
 
-TEST(WriteMgf, WhatCantBeWrittenIsNamed) {
-  const auto a = std::make_shared<Sphere>(Vec3{}, 1);
-  const auto b = std::make_shared<Sphere>(Vec3{1, 0, 0}, 1);
-  const auto bite = std::make_shared<Csg>(CsgOperation::subtract, a, b);
-  EXPECT_THAT(refusal(write_mgf, one_object(bite)),
-              StartsWith("object 'thing' can't be written: MGF has no such difference"));
-  const auto ring = std::make_shared<Torus>(Vec3{}, Vec3{0, 0, 1}, 2, 0.5);
-  EXPECT_THAT(
-      refusal(write_mgf, one_object(std::make_shared<Instance>(ring, Affine::scale({1, 1, 2})))),
-      HasSubstr("no such torus"));
-}
-
 TEST(WriteMgf, LightIsExitanceWithItsColour) {
   Scene scene = one_object(std::make_shared<Disk>(Vec3{}, Vec3{0, 0, -1}, 0.5));
   scene.objects[0].sides = Sides::front;

@@ -9,6 +9,7 @@
 #include "formats/one_object.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/complement.h"
+#include "isolux/geometry/csg.h"
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/instance.h"
@@ -141,10 +142,25 @@ TEST(WriteRadiance, WhatIsLostIsNoted) {
               ElementsAre("cameras are left out (1): Radiance has none", HasSubstr("backs")));
 }
 
-TEST(WriteRadiance, TheTorusIsNamed) {
-  EXPECT_THAT(
-      refusal(write_radiance, one_object(std::make_shared<Torus>(Vec3{}, Vec3{0, 0, 1}, 2, 0.5))),
-      StartsWith("object 'thing' can't be written: Radiance has no such torus"));
+// Dual contouring on 32 cells: the points lie on the surface, the middles of triangles within.
+TEST(WriteRadiance, WhatHasNoTrianglesIsApproximated) {
+  const auto torus = std::make_shared<Torus>(Vec3{}, Vec3{0, 0, 1}, 2, 0.5);
+  EXPECT_NEAR(volume(surfaces(torus)), std::numbers::pi * std::numbers::pi, 0.1);
+  const auto room = std::make_shared<Complement>(torus);
+  EXPECT_NEAR(volume(surfaces(room)), -std::numbers::pi * std::numbers::pi, 0.1);
+  EXPECT_THAT(write_radiance(one_object(torus)).notes,
+              ElementsAre(HasSubstr("triangles stand for what Radiance does not have, up to 0.0")));
+  // Edges stay sharp: half a box, cut from a whole one.
+  const auto box = std::make_shared<Box>(Vec3{}, Vec3{2, 2, 2});
+  const auto half = std::make_shared<Csg>(CsgOperation::subtract, box,
+                                          std::make_shared<Box>(Vec3{1, -1, -1}, Vec3{3, 3, 3}));
+  EXPECT_NEAR(volume(surfaces(half)), 4, 1e-3);
+  // A wall thinner than a cell.
+  const auto cut =
+      std::make_shared<Csg>(CsgOperation::subtract, box,
+                            std::make_shared<Box>(Vec3{0.01, 0.01, 0.01}, Vec3{1.99, 1.99, 3}));
+  EXPECT_THAT(write_radiance(one_object(cut)).notes,
+              testing::Contains(HasSubstr("may be missing: 'thing'")));
 }
 
 }  // namespace

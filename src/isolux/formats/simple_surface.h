@@ -53,15 +53,22 @@ struct SurfaceFormat {
   std::size_t most_corners = 0;  ///< of a face
 };
 
-/// The surfaces that the object is made of. Where the format lacks one, or a map stretches what is
-/// round, triangles stand for the object, and its name is added to `triangulated`. Throws
-/// InputError that names the object where it has no triangles either: where it is a union,
-/// intersection or difference, or a torus.
-std::vector<SimpleSurface> simple_surfaces(const Object& object, const SurfaceFormat& format,
-                                           std::vector<std::string>& triangulated);
+/// An object that triangles stand for, and how well.
+struct Triangulated {
+  std::string object;
+  double deviation;  ///< m, as of an Approximation
+  double lost;       ///< likewise
+};
 
-/// What writers of such formats note: cameras that are left out, objects that triangles stand for.
+/// The surfaces that the object is made of. Where the format lacks one, or a map stretches what is
+/// round, triangles stand for the object, and it is added to `triangulated`. Throws InputError that
+/// names the object where that would be more than 10⁶.
+std::vector<SimpleSurface> simple_surfaces(const Object& object, const SurfaceFormat& format,
+                                           std::vector<Triangulated>& triangulated);
+
+/// What writers of such formats note: cameras and lights without a surface, which are left out, and
+/// objects that triangles stand for.
 std::vector<std::string> notes_of(const Scene& scene, const SurfaceFormat& format,
-                                  const std::vector<std::string>& triangulated);
+                                  const std::vector<Triangulated>& triangulated);
 
 }  // namespace isolux

@@ -120,9 +120,13 @@ bool segments_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, d
   return gap == Vec3{} && !beside(a, b, c, d) && !beside(c, d, a, b);
 }
 
-std::vector<Corners> clip_ears(const Flat& p, std::vector<Ring> rings, double slack) {
+Ring with_seams(const Flat& p, std::vector<Ring> rings, double slack) {
   while (rings.size() > 1) join_last_ring(p, rings, slack);
-  Ring& ring = rings.front();
+  return rings.front();
+}
+
+std::vector<Corners> clip_ears(const Flat& p, std::vector<Ring> rings, double slack) {
+  Ring ring = with_seams(p, std::move(rings), slack);
   std::vector<Corners> triangles;
   for (std::size_t i = 0, misses = 0; ring.size() > 3; ++i) {
     const std::size_t n = ring.size();

@@ -24,6 +24,11 @@ bool in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, dou
 /// Whether the segments a b and c d come within `slack` of each other.
 bool segments_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double slack);
 
+/// One ring around the region inside the first ring and outside the others, which are joined to it
+/// by seams, passed there and back; the rings don't touch. Throws InputError where the region is
+/// too thin.
+Ring with_seams(const Flat& corners, std::vector<Ring> rings, double slack);
+
 /// Triangles, without new corners, of the region inside the first ring and outside the others; the
 /// rings don't touch. Throws InputError where the region is too thin to be cut.
 std::vector<std::array<std::uint32_t, 3>> clip_ears(const Flat& corners, std::vector<Ring> rings,

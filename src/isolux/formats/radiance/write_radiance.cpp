@@ -121,7 +121,7 @@ void note_sides(const Scene& scene, std::vector<std::string>& notes) {
 
 WrittenScene write_radiance(const Scene& scene) {
   RadianceText text(scene);
-  std::vector<std::string> triangulated;
+  std::vector<Triangulated> triangulated;
   for (const Object& object : scene.objects) {
     text.add(object, simple_surfaces(object, kRadiance, triangulated));
   }
