@@ -132,10 +132,18 @@ TEST(Gltf, EmissionIsLuminance) {
   }
 }
 
+TEST(Gltf, ColorsOfVerticesAreNoted) {
+  std::string text = square_file(R"("materials": [{}],)" + kOne);
+  const std::string position = "\"POSITION\": 0";
+  text.replace(text.find(position), position.size(), position + ", \"COLOR_0\": 0");
+  EXPECT_THAT(scene_in("a.gltf", text).notes, Contains(HasSubstr("'COLOR_0' left out")));
+}
+
 TEST(Gltf, TexturesCountWithTheirMean) {
   // A PNG of two texels, black and white.
   const std::string png =
-      "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg+A8AAQIBAEK+vGgAAAAASUVORK5CYII=";
+      "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNg+A8AAQIBAEK+"
+      "vGgAAAAASUVORK5CYII=";
   const SceneFile file = scene_in(
       "a.gltf", square_file(fmt::format(R"("images": [{{"uri": "data:image/png;base64,{}"}}],
 "textures": [{{"source": 0}}], "materials": [{{"pbrMetallicRoughness":

@@ -48,6 +48,21 @@ TEST(Obj, MaterialsGiveReflectanceAndLight) {
   }
 }
 
+TEST(Obj, LibrariesMayBeSeveralOrHaveSpaces) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nKd 0.1 0.1 0.1\n");
+  folder.write("b.mtl", "newmtl b\nKd 0.2 0.2 0.2\n");
+  folder.write("c d.mtl", "newmtl c\nKd 0.3 0.3 0.3\n");
+  const Scene scene =
+      load_scene_file(folder.write("a.obj", "mtllib a.mtl b.mtl\nmtllib c d.mtl\n" + kSquare +
+                                                "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"
+                                                "usemtl c\nf 1 2 4\n"))
+          .scene;
+  ASSERT_EQ(scene.materials.size(), 3u);
+  EXPECT_EQ(scene.materials[1].reflectance, gray(0.2));
+  EXPECT_EQ(scene.materials[2].reflectance, gray(0.3));
+}
+
 // A box around a light faces inward, whichever way its faces are wound; a box beside it outward.
 TEST(Obj, ClosedSurfacesFaceWhereTheLightIs) {
   const auto box = [](double from, double size) {

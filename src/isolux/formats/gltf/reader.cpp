@@ -146,6 +146,9 @@ void Reader::add_mesh(const Json& node, const Affine& map) {
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const Json primitive = primitives.item(i);
     if (primitive.find("targets")) assembly_.notes().left_out("targets", "meshes are at rest");
+    if (primitive.require("attributes").find("COLOR_0")) {
+      assembly_.notes().left_out("COLOR_0", "meshes have the plain color of their material");
+    }
     const Look& look = materials_.of(primitive);
     const bool any_side = look.two_sided && !(max_channel(look.exitance) > 0);
     const bool shared = uses_[number] > 1;

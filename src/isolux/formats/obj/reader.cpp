@@ -120,16 +120,29 @@ void Reader::read_face(const Statement& s) {
 }
 
 void Reader::read_library(const Statement& s) {
-  s.expect_arguments(1, Statement::kAnyNumber, "mtllib file");
+  s.expect_arguments(1, Statement::kAnyNumber, "mtllib file ...");
   has_library_ = true;
+  const auto read = [&](const SourceText& source) {
+    obj::read_materials(source, includes_, textures_, materials_, assembly_.notes());
+    includes_.close();
+  };
+  // One name, perhaps with spaces, else one a word.
   SourceText source;
   try {
     source = includes_.open(joined(s));
   } catch (const InputError& error) {
-    s.fail(1, error.what());
+    if (s.size() == 2) s.fail(1, error.what());
+    for (std::size_t i = 1; i < s.size(); ++i) {
+      try {
+        source = includes_.open(s.word(i));
+      } catch (const InputError& fault) {
+        s.fail(i, fault.what());
+      }
+      read(source);
+    }
+    return;
   }
-  obj::read_materials(source, includes_, textures_, materials_, assembly_.notes());
-  includes_.close();
+  read(source);
 }
 
 void Reader::use_material(const Statement& s) {
