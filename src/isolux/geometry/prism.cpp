@@ -171,7 +171,7 @@ bool Prism::contains(const Vec3& point) const { return contains_local(to_local_.
 
 /// Adds where the line may cross a side between s = a and b.
 void Prism::find_sides(const Line& line, double a, double b, std::vector<Candidate>& found) const {
-  const auto& [o, d, shift, speed] = line;
+  const Vec3 &o = line.o, &d = line.d;
   const Vec3 k0 = scale_at(o.z), k1 = (top_scale_ - Vec3{1, 1, 0}) * d.z;
   const Linear kx = {k0.x, k1.x}, ky = {k0.y, k1.y};
   const bool equal = top_scale_.x == top_scale_.y;

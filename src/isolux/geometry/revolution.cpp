@@ -130,7 +130,7 @@ void Revolution::find_straight(std::uint32_t index, const Line& line,
 void Revolution::find_curved(std::uint32_t index, const Line& line,
                              std::vector<Candidate>& found) const {
   const ProfilePart& part = parts_[index];
-  const auto& [o, d, shift, speed] = line;
+  const Vec3 &o = line.o, &d = line.d;
   // Newton's steps in u and s, from near the meeting.
   const auto add = [&](double u, double s) {
     const double s_before = s;

@@ -93,7 +93,8 @@ SweptSphere::SweptSphere(std::vector<CurvePoint> points, bool loop)
 
 void SweptSphere::find_intervals(const Arc& arc, std::uint32_t index, const Line& line,
                                  std::vector<Interval>& found) {
-  const auto& [o, d, across] = line;
+  const Vec3 &o = line.o, &d = line.d;
+  const Frame& across = line.across;
   const Vec3 off = arc.center - o;
   if (length_squared(off - d * dot(off, d)) > arc.reach * arc.reach) return;
   const auto component = [&](const Vec3& axis) {

@@ -114,7 +114,7 @@ void Torus::intersect(const Ray& ray, Hits& hits) const {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   const LocalLine line = localize(ray);
   if (!may_meet(line, -kAll, kAll)) return;
-  const auto& [o, d, shift, speed] = line;
+  const Vec3 &o = line.o, &d = line.d;
   const double unit = major_ + minor_;
   const double R = major_ / unit, r = minor_ / unit;
   const double oo = length_squared(o);
@@ -139,7 +139,7 @@ void Torus::intersect(const Ray& ray, Hits& hits) const {
     const Vec3 on_circle = Vec3{p.x, p.y, 0} * (R / ring);
     const Vec3 normal = frame_.to_world(normalized(p - on_circle));
     const Vec3 point = center_ + frame_.to_world(on_circle * unit) + normal * minor_;
-    hits.push_back({(shift + s * unit) / speed, point, normal, 0});
+    hits.push_back({(line.shift + s * unit) / line.speed, point, normal, 0});
   }
 }
 

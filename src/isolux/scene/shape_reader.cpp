@@ -195,8 +195,9 @@ ReadShape read_nested(const Value& value, int depth) {
                       "object or a union",
                       in_quotes(key.label()), in_quotes(read.kind)));
     }
-    const auto kind = std::find_if(std::begin(kShapeKinds), std::end(kShapeKinds),
-                                   [&](const ShapeKind& k) { return k.key == key.label(); });
+    const auto kind =
+        std::find_if(std::begin(kShapeKinds), std::end(kShapeKinds),
+                     [name = key.label()](const ShapeKind& k) { return k.key == name; });
     read = {kind->key, kind->read(inner, depth)};
   }
   if (!read.shape) {
