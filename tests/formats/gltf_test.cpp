@@ -75,6 +75,13 @@ std::string glb(const std::string& json, const std::string& binary) {
          text + word(binary.size()) + std::string("BIN\0", 4) + binary;
 }
 
+TEST(Gltf, TimeToReadGrowsWithTheSizeAlone) {
+  std::string nodes = "{}";
+  for (int i = 0; i < 300'000; ++i) nodes += ",{}";
+  EXPECT_EQ(refusal_of("a.gltf", R"({"asset": {"version": "2.0"}, "nodes": [)" + nodes + "]}"),
+            "a.gltf: the scene has no surfaces");
+}
+
 TEST(Gltf, ASquareFromJsonAndFromGlb) {
   for (const auto& [name, text] :
        {std::pair<std::string, std::string>{"a.gltf", square_file(kGray + kOne)},
