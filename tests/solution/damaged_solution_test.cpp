@@ -53,6 +53,12 @@ TEST_F(DamagedSolution, TruncatedAnywhereIsRefused) {
   }
 }
 
+TEST_F(DamagedSolution, TimeToReadGrowsWithTheSizeAlone) {
+  Glb glb = decode_glb(whole_);
+  glb.json["nodes"] = std::vector<json>(300'000, json::object());
+  load(encode_glb(glb));
+}
+
 TEST_F(DamagedSolution, ForeignFilesAreRefused) {
   expect_error("", "is not a solution of isolux");
   expect_error("isolux: 1\nname: a scene\n", "is not a solution of isolux");

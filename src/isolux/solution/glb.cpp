@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "isolux/core/error.h"
+#include "isolux/core/json_limits.h"
 
 namespace isolux {
 namespace {
@@ -47,15 +48,11 @@ std::string_view take_chunk(const std::string& bytes, std::size_t& offset, std::
 }
 
 json parse(std::string_view text) {
-  int values = 0;
-  const auto limit = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kMaxDepth || ++values > kMaxValues) {
-      throw InputError("is not a solution of isolux: its JSON is far too large");
-    }
-    return true;
-  };
+  if (!within_json_limits(text, kMaxDepth, kMaxValues)) {
+    throw InputError("is not a solution of isolux: its JSON is far too large");
+  }
   try {
-    return json::parse(text.begin(), text.end(), limit);
+    return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& error) {
     throw InputError(fmt::format("is damaged: its JSON is malformed at byte {}", error.byte));
   } catch (const json::exception&) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "isolux/core/error.h"
+#include "isolux/core/json_limits.h"
 
 namespace isolux::gltf {
 
@@ -93,37 +94,10 @@ std::optional<Json> Json::extension(const char* name) const {
   return extensions ? extensions->find(name) : std::nullopt;
 }
 
-namespace {
-
-/// Throws where the text nests too deep or has too many values. The parser's own callback could
-/// tell, but makes it search each list anew for every object within.
-void require_modest(std::string_view text, const std::string& file) {
-  constexpr int kDeepest = 64, kMostValues = 2'000'000;
-  int depth = 0, values = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') {
-      quoted = !quoted;
-    } else if (quoted) {
-      if (c == '\\') ++i;
-    } else if (c == '[' || c == '{') {
-      ++depth, ++values;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    } else if (c == ',') {
-      ++values;
-    }
-    if (depth > kDeepest || values > kMostValues) {
-      throw InputError({file}, "the JSON is too deep or has too many values");
-    }
-  }
-}
-
-}  // namespace
-
 json parse_json(std::string_view text, const std::string& file) {
-  require_modest(text, file);
+  if (!within_json_limits(text, 64, 2'000'000)) {
+    throw InputError({file}, "the JSON is too deep or has too many values");
+  }
   try {
     json tree = json::parse(text.begin(), text.end());
     if (!tree.is_object()) throw InputError({file, 1, 1}, "the JSON must be an object");
