@@ -17,7 +17,7 @@ constexpr double kLeastSize = 1.0 / 64;
 constexpr double kLeastAtFolds = 1.0 / 8;
 // Along a ruling, points are no further apart than this part of the spacing.
 constexpr double kLongest = 0.25;
-constexpr double kLeastStretch = 2;
+constexpr double kLeastStretch = 4;
 constexpr int kDirections = 8;
 constexpr double kTau = 2 * std::numbers::pi;
 
@@ -84,8 +84,8 @@ CoverPoints::Ending CoverPoints::ending(const ZonePoint& point, const Vec3& d, d
 
 CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const Vec3& first,
                                                    const PointSpacing& most) {
-  const double limit = most.size;
   constexpr double kNear = 0.35;
+  const double limit = most.size;
   const Vec3 second = cross(point.normal, first);
   Surroundings around{{limit}};
   Bending bending(first, second);
