@@ -31,6 +31,10 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   constexpr int kDoublings = 2;
   // Of what the errors of all emitters would sum up to, were they alike: some cancel.
   constexpr double kAlike = 0.8;
+  // Short of its tolerance, a solution may have made or lost light where it is still rough.
+  const double unbalanced = solved.converged || !(solved.emitted_flux > 0)
+                                ? 0
+                                : std::abs(solved.imbalance) / solved.emitted_flux;
   const int grid =
       std::clamp(static_cast<int>(std::lround(kFinerGrid * std::sqrt(solved.gather_rays))), 1,
                  HemisphereGather::kFinestGrid);
@@ -50,7 +54,7 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
       const double emitters = luminance(hemisphere.reflected(row, errors));
       result[i].error =
           std::hypot(kConfidence * std::hypot(deviation[i], indirect.error), kAlike * emitters) +
-          solved.emitter_error;
+          solved.emitter_error + unbalanced * luminance(result[i].irradiance);
     }
   });
   return result;
