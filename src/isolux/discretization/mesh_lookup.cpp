@@ -4,6 +4,8 @@
 #include <bit>
 #include <tuple>
 
+#include "isolux/discretization/nearest_vertices.h"
+
 namespace isolux {
 namespace {
 
@@ -57,21 +59,12 @@ std::size_t hash(VoxelKey key) {
   return static_cast<std::size_t>(key ^ (key >> 29));
 }
 
-/// About the distance of neighbouring vertices, m.
-double mean_spacing(const Triangulation& mesh) {
-  double area = 0;
-  for (const Triangle& triangle : mesh.triangles()) area += triangle.alive ? triangle.area : 0;
-  if (!(area > 0)) return mesh.rules().max_edge;
-  return std::sqrt(area / static_cast<double>(mesh.vertices().size()));
-}
-
 }  // namespace
 
 class MeshLookup::Impl {
  public:
-  explicit Impl(const Triangulation& mesh)
-      : mesh_(mesh), spacing_(mean_spacing(mesh)), near_(Vec3{}, spacing_) {
-    collect_vertices();
+  explicit Impl(const Triangulation& mesh) : mesh_(mesh), nearest_(mesh) {
+    find_middle();
     collect_triangles();
   }
 
@@ -103,15 +96,8 @@ class MeshLookup::Impl {
     return place_in(*best, weights);
   }
 
-  std::optional<MeshPlace> nearest_vertices(const Vec3& point, const Vec3& normal) const {
-    for (const double facing : {double(kFacing), 1e-6}) {
-      // Every vertex within the radius is looked at; a wider search can only add farther ones.
-      for (double radius = spacing_; radius < 8 * extent_ + 8 * spacing_; radius *= 2) {
-        const auto found = nearest_vertices(point, normal, facing, radius);
-        if (found) return found;
-      }
-    }
-    return std::nullopt;
+  std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal) const {
+    return nearest_.place(point, normal);
   }
 
  private:
@@ -136,44 +122,12 @@ class MeshLookup::Impl {
                      cell(from_middle.z * scale));
   }
 
-  std::optional<MeshPlace> nearest_vertices(const Vec3& point, const Vec3& normal, double facing,
-                                            double radius) const {
-    thread_local std::vector<std::uint32_t> ids;
-    thread_local std::vector<std::pair<double, VertexId>> found;
-    near_.query(point, radius, ids);
-    found.clear();
-    for (const VertexId v : ids) {
-      const Vertex& vertex = mesh_.vertex(v);
-      const double squared = length_squared(vertex.position - point);
-      if (squared <= radius * radius && dot(vertex.normal, normal) >= facing) {
-        found.emplace_back(squared, v);
-      }
-    }
-    if (found.empty()) return std::nullopt;
-    std::sort(found.begin(), found.end());
-    MeshPlace place;
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& [squared, v] = found[std::min(k, found.size() - 1)];
-      place.vertices[k] = v;
-      if (k < found.size()) sum += place.weights[k] = 1 / std::max(squared, 1e-200);
-    }
-    for (double& w : place.weights) w /= sum;
-    return place;
-  }
-
-  /// The vertices of living triangles, and the middle of the mesh.
-  void collect_vertices() {
+  void find_middle() {
     Bounds bounds;
-    for (VertexId v = 0; v < mesh_.vertices().size(); ++v) {
-      const Vertex& vertex = mesh_.vertex(v);
-      if (vertex.triangles.empty()) continue;
-      near_.insert(v, vertex.position);
-      bounds.include(vertex.position);
+    for (const Vertex& vertex : mesh_.vertices()) {
+      if (!vertex.triangles.empty()) bounds.include(vertex.position);
     }
-    if (bounds.empty()) return;
-    extent_ = bounds.diagonal();
-    middle_ = bounds.center();
+    if (!bounds.empty()) middle_ = bounds.center();
   }
 
   /// The living triangles, those of one voxel one after the other.
@@ -317,9 +271,7 @@ class MeshLookup::Impl {
   };
 
   const Triangulation& mesh_;
-  double spacing_;              // of vertices on average, m
-  VertexGrid near_;             // the vertices of living triangles
-  double extent_ = 0;           // of the mesh, m
+  NearestVertices nearest_;
   Vec3 middle_;                 // of the mesh
   int levels_ = 0;              // grids
   std::vector<double> scales_;  // by grid: voxels per m
@@ -337,7 +289,7 @@ std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& nor
 
 std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal) const {
   if (auto found = impl_->covering(point, normal)) return found;
-  return impl_->nearest_vertices(point, normal);
+  return impl_->nearest(point, normal);
 }
 
 }  // namespace isolux

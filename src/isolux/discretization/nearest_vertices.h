@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "isolux/discretization/interpolation.h"
+
+namespace isolux {
+
+/// Finds light for points of the surface that no triangle covers: the vertices near by. It keeps
+/// the mesh as it stood when it was built.
+class NearestVertices {
+ public:
+  explicit NearestVertices(const Triangulation& mesh);
+  ~NearestVertices();
+  NearestVertices(const NearestVertices&) = delete;
+  NearestVertices& operator=(const NearestVertices&) = delete;
+
+  /// The three nearest vertices of living triangles that face as `normal` does, each weighing one
+  /// over the square of its distance. Nothing where none faces that way, within 60° if possible,
+  /// else within 90°. May be asked from many threads at once.
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
+
+ private:
+  class Tree;
+  std::unique_ptr<const Tree> tree_;
+};
+
+}  // namespace isolux
