@@ -80,15 +80,19 @@ std::string describe_gathering(const Statistics& s) {
       s.error > 0 ? fmt::format("estimated error {:.2g} %: interpolation {:.2g} %, rays {:.2g} %",
                                 100 * s.error, 100 * s.discretization_error, 100 * s.sampling_error)
                   : "error not estimated yet";
+  const std::string narrow =
+      s.narrow_error > 0
+          ? fmt::format("; steps of light too narrow for the mesh: {:.2g} %", 100 * s.narrow_error)
+          : "";
   return fmt::format(
-      "solve       {} ({} rounds), {} vertices gathered {} rays each\n"
+      "solve       {} ({} rounds), {} vertices gathered {} rays on average\n"
       "mesh        {} triangles, {} vertices ({} by splits), {:.6g} m²\n"
       "energy      {:.6g} lm emitted: absorbed {:.2f} %, escaped {:.2f} %, unshot {:.2f} %, "
       "unaccounted for {:.2f} %\n"
-      "illuminance {:.6g} lx on average, {}\n",
+      "illuminance {:.6g} lx on average, {}{}\n",
       end, s.iterations, s.gatherers, s.gather_rays, s.triangles, s.vertices, s.split, s.mesh_area,
       s.emitted_flux, share(s.absorbed_flux), share(s.escaped_flux), share(s.unshot_flux),
-      share(s.imbalance), s.mean_irradiance, error);
+      share(s.imbalance), s.mean_irradiance, error, narrow);
 }
 
 std::string describe_shooting(const Statistics& s) {

@@ -18,9 +18,6 @@ namespace {
 constexpr double kFirstTolerance = 0.08;
 constexpr double kLevelRatio = 8;
 
-// Rays over a hemisphere of the first solution: cells a side.
-constexpr int kCoarsestGrid = 8;
-
 // Subsets of the cover's vertices, one to gather first, the others where that is not enough.
 constexpr int kSubsets = 4;
 
@@ -37,15 +34,17 @@ Gathering::Gathering(GatheringState& state, const RayCaster& rays, const Options
       rays_(rays),
       options_(options),
       callbacks_(callbacks),
-      lights_(rays) {}
+      lights_(rays),
+      diagonal_(rays.scene().bounds().diagonal()) {}
 
 void Gathering::run() {
   if (mesh_.vertices().empty()) first_solution();
   for (; keep_going(); ++state_.statistics.iterations) {
     refine_direct();
-    gather_all(grid_for(state_.level));
+    gather_all();
     transfer();
     refine_indirect();
+    gather_all();
     transfer();
     estimate();
     if (stopped_ || !next_level() || full()) break;
@@ -65,7 +64,7 @@ void Gathering::first_solution() {
   for (const VertexId v : subsets.order) state_.give_parents(v, subsets.places[v]);
   state_.statistics.emitted_flux = emitted_flux();
   state_.level = std::max(options_.tolerance, kFirstTolerance);
-  gather_all(kCoarsestGrid);
+  gather_all();
   transfer();
   estimate();
 }
@@ -73,14 +72,15 @@ void Gathering::first_solution() {
 /// Goes on to a stricter level; false where the goal is reached, or out of reach.
 bool Gathering::next_level() {
   constexpr int kMostTries = 6;
-  constexpr double kTighter = 0.7;
+  constexpr double kTighter = 0.7, kBarely = 0.95;
   state_.statistics.converged = state_.statistics.error <= options_.tolerance;
   if (state_.statistics.converged) return false;
   if (state_.level > options_.tolerance) {
     state_.level = std::max(options_.tolerance, state_.level / kLevelRatio);
     return true;
   }
-  state_.level *= kTighter;
+  state_.level *=
+      std::clamp(kBarely * options_.tolerance / state_.statistics.error, kTighter, kBarely);
   return ++state_.tries < kMostTries;
 }
 
@@ -153,6 +153,7 @@ void Gathering::estimate() {
       (kBiasLeft * again * std::abs(state_.bias) + unshot) / (1 - again);
   const double interpolation = std::sqrt(state_.direct_mean_square + state_.indirect_mean_square);
   state_.statistics.discretization_error = interpolation / mean_irradiance();
+  state_.statistics.narrow_error = std::sqrt(state_.narrow_mean_square) / mean_irradiance();
   state_.statistics.sampling_error = state_.deviation / mean_irradiance();
   state_.statistics.error =
       (std::hypot(interpolation, state_.deviation) + state_.statistics.emitter_error) /
@@ -180,9 +181,15 @@ void Gathering::finish() {
     triangle.shot = unshot_radiosity(mesh_, triangle);
   }
   state_.statistics.interrupted = stopped_;
-  state_.statistics.gather_rays = static_cast<int>(square_of(state_.grid));
+  std::size_t links = 0;
   state_.statistics.gatherers = 0;
-  for (const VertexLight& light : state_.light) state_.statistics.gatherers += light.gathers;
+  for (const VertexLight& light : state_.light) {
+    if (!light.gathers) continue;
+    ++state_.statistics.gatherers;
+    links += light.row.size();
+  }
+  state_.statistics.gather_rays =
+      static_cast<int>(links / std::max<std::size_t>(state_.statistics.gatherers, 1));
   state_.statistics.triangles = mesh_.triangle_count();
   state_.statistics.vertices = mesh_.vertices().size();
   state_.statistics.cpu_seconds = stopwatch_.cpu();

@@ -9,9 +9,9 @@ namespace isolux {
 namespace {
 
 // The part of the tolerance that interpolation of E_d may cost.
-constexpr double kDirectShare = 0.55;
+constexpr double kDirectShare = 0.5;
 
-// Along hard shadows, edges are split to this part of the tolerance times the scene's diagonal.
+// Edges are not split to less than this part of the tolerance times the scene's diagonal.
 constexpr double kHairline = 0.1;
 
 // A round of splits takes on the worst edges, which make up this part of the estimated error
@@ -129,23 +129,24 @@ void Gathering::sample(std::span<const Edge> edges) {
   }
 }
 
-/// Whether an edge is too short to be split along a hard shadow, whose step no mesh ever resolves:
-/// what it is off is in the errors of its vertices, but left out of the whole.
+/// Whether an edge is too short to be split. Along steps of light so narrow, halving the error
+/// takes four times the edges, and where shadows are hard there is no end to it: what such edges
+/// are off is in the errors of their vertices and told by itself, but left out of the whole.
 bool Gathering::hairline(const Edge& edge) const {
-  if (rays_.scene().sources.empty()) return false;
-  const double shortest = kHairline * state_.level * rays_.scene().bounds().diagonal();
+  const double shortest = kHairline * state_.level * diagonal_;
   return distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) < shortest;
 }
 
 double Gathering::direct_mean_square(std::span<const Edge> edges) {
-  double sum = 0, bias = 0;
+  double sum = 0, narrow = 0, bias = 0;
   for (const Edge& e : edges) {
     const auto at = state_.direct_error.find(e.key());
-    if (at == state_.direct_error.end() || hairline(e)) continue;
-    sum += cost(e, at->second);
+    if (at == state_.direct_error.end()) continue;
+    (hairline(e) ? narrow : sum) += cost(e, at->second);
     bias += at->second * e.area / 3;
   }
   state_.bias = bias / area();
+  state_.narrow_mean_square = narrow / area();
   return sum / area();
 }
 
@@ -216,7 +217,7 @@ void Gathering::split(std::span<const Edge> edges, std::span<const Middle> middl
       continue;
     }
     ++state_.statistics.split;
-    split_since_[edges[i].key()] =
+    state_.split_since[edges[i].key()] =
         static_cast<float>(std::abs(signed_error(state_.direct_error, edges[i]) +
                                     signed_error(state_.indirect_error, edges[i])));
     state_.light.resize(mesh_.vertices().size());

@@ -7,6 +7,7 @@ namespace isolux {
 namespace {
 
 constexpr double kIndirectShare = 0.55;  // of the tolerance: interpolation of E_i
+constexpr int kTrialGrid = 16;           // cells a side, until it is known who gathers
 constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain from finer triangles
 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what
@@ -88,20 +89,20 @@ double Gathering::surprise(VertexId v) const {
 
 /// Lets vertices gather, and splits edges, where interpolation of E_i costs too much.
 void Gathering::refine_indirect() {
-  constexpr int kMostRounds = 24, kRoundsBetweenRenewals = 3;
+  constexpr int kMostRounds = 24;
+  constexpr std::size_t kFew = 2000;  // edges for each place that is not worth another round
   const double target = square(kIndirectShare * state_.level * mean_irradiance()) * area();
   state_.indirect_error.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     const std::vector<Edge> edges = living_edges(mesh_);
     const std::vector<VertexId> doubtful = doubtful_vertices(kVerticesPart * target);
     const std::vector<Edge> suspect = suspect_edges(edges, kEdgesPart * target);
-    if (doubtful.empty() && (suspect.empty() || full())) break;
+    const std::size_t open = doubtful.size() + (full() ? 0 : suspect.size());
+    if (open <= edges.size() / kFew) break;
     gather_at_doubtful(doubtful);
     split_suspects(suspect, target / double(edges.size()));
-    if (round % kRoundsBetweenRenewals == 1) renew_links();
     transfer();
   }
-  renew_links();
   state_.indirect_mean_square = indirect_mean_square();
 }
 
@@ -187,13 +188,7 @@ void Gathering::gather_at_doubtful(std::span<const VertexId> doubtful) {
     by_rule.push_back({v, light.indirect, square(light.indirect_deviation), area_around(v)});
     foreseen += square(rule) * by_rule.back().area;
   }
-  trace(doubtful);
-  parallel_for(doubtful.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (state_.light[doubtful[i]].gathers) evaluate(doubtful[i]);
-    }
-  });
-  for (const VertexId v : doubtful) sum_up(v);
+  trace_as_wanted(doubtful, kTrialGrid);
   double noise = 0;
   for (const auto& [v, before, variance, area] : by_rule) {
     const VertexLight& light = state_.light[v];
@@ -223,13 +218,13 @@ void Gathering::learn_bend(double foreseen, double found, double noise, std::siz
   state_.bend_scale = std::clamp(state_.bend_scale * std::clamp(factor, 0.5, 2.0), 0.1, 1.5);
 }
 
-/// Links anew the vertices whose rays landed on edges that are split since, where this matters:
-/// the mesh knows the light there better now.
-void Gathering::renew_links() {
-  if (split_since_.empty()) return;
+/// The vertices whose rays landed on edges that are split since, where this matters: the mesh knows
+/// the light there better now.
+std::vector<VertexId> Gathering::outdated_vertices() const {
+  if (state_.split_since.empty()) return {};
   const double matters = kRenewalShare * state_.level * mean_irradiance();
   std::vector<char> touched(state_.light.size());  // ends of such edges
-  for (const auto& [edge, error] : split_since_)
+  for (const auto& [edge, error] : state_.split_since)
     touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
   const auto gain = [&](const Landing& landing) {
     const auto& v = landing.vertices;
@@ -237,8 +232,8 @@ void Gathering::renew_links() {
     double most = 0;
     for (int k = 0; k < 3; ++k) {
       const auto [a, b] = std::minmax(v[k], v[(k + 1) % 3]);
-      const auto split = split_since_.find(Edge{a, b}.key());
-      if (split != split_since_.end()) most = std::max(most, double(split->second));
+      const auto split = state_.split_since.find(Edge{a, b}.key());
+      if (split != state_.split_since.end()) most = std::max(most, double(split->second));
     }
     return most > 0 ? most * luminance(mesh_.vertex(v[0]).reflectance) / 2 : 0;
   };
@@ -248,28 +243,32 @@ void Gathering::renew_links() {
       const std::vector<Landing>& row = state_.light[v].row;
       double sum = 0;
       for (const Landing& landing : row) sum += gain(landing);
-      renew[v] = sum > matters * static_cast<double>(row.size());
+      renew[v] = state_.light[v].gathers && sum > matters * static_cast<double>(row.size());
     }
   });
   std::vector<VertexId> vertices;
   for (VertexId v = 0; v < renew.size(); ++v) {
     if (renew[v]) vertices.push_back(v);
   }
-  look_up_anew();
-  trace(vertices);
+  return vertices;
 }
 
 void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   const std::vector<Middle> middles = middles_of(suspect);
+  std::vector<int> grids;
+  const std::vector<int> wanted = wanted_grids();
+  for (const Edge& e : suspect) {
+    grids.push_back(std::min(std::max(wanted[e.a], wanted[e.b]), kTrialGrid));
+    state_.statistics.refinement_rays += square_of(grids.back());
+  }
   std::vector<std::vector<Landing>> rows(suspect.size());
   for_pieces(suspect.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!middles[i].point) continue;
-      rows[i] = links({middles[i].point->position, middles[i].point->normal}, state_.grid,
-                      suspect[i].key());
+      rows[i] =
+          links({middles[i].point->position, middles[i].point->normal}, grids[i], suspect[i].key());
     }
   });
-  state_.statistics.refinement_rays += suspect.size() * square_of(state_.grid);
   std::vector<Gathered> gathered(suspect.size());
   std::vector<std::size_t> costly;
   std::vector<Edge> to_split;
@@ -311,13 +310,14 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   }
 }
 
-/// e of E_i in the middle of an edge: as it was found, or as a rule.
+/// e of E_i in the middle of an edge: as it was found, or as a rule; where E_i of an end is
+/// interpolated already, what that costs.
 double Gathering::indirect_error(const Edge& e) const {
   const auto known = state_.indirect_error.find(e.key());
-  const double bend = known != state_.indirect_error.end()
-                          ? std::abs(known->second)
-                          : state_.bend_scale * usual_bend(e.a, e.b);
-  return bend + (state_.light[e.a].bend + state_.light[e.b].bend) / 2;
+  if (known != state_.indirect_error.end()) return std::abs(known->second);
+  const VertexLight &a = state_.light[e.a], &b = state_.light[e.b];
+  if (a.gathers && b.gathers) return state_.bend_scale * usual_bend(e.a, e.b);
+  return (a.bend + b.bend) / 2;
 }
 
 /// What interpolation of E_i costs, lx².

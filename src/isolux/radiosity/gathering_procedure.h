@@ -72,15 +72,19 @@ class Gathering {
   void split(std::span<const Edge> edges, std::span<const Middle> middles);
 
   // E_i
-  int grid_for(double level) const;
-  void gather_all(int grid);
-  void trace(std::span<const VertexId> vertices);
+  void gather_all();
+  void trace(std::span<const VertexId> vertices, std::span<const int> grids);
+  std::vector<double> doubts();
+  std::vector<double> areas_of_influence();
+  std::vector<int> wanted_grids();
+  void trace_as_wanted(std::span<const VertexId> vertices, int finest);
   std::vector<Landing> links(const Receiver& receiver, int grid, std::uint64_t id) const;
   void give_links(VertexId v, std::vector<Landing> row);
   void glimpse();
   void look_up_anew();
+  std::vector<VertexId> outdated_vertices() const;
   Gathered gather(std::span<const Landing> row) const;
-  void evaluate(VertexId v);
+  void evaluate(std::span<const VertexId> vertices);
   void interpolate_indirect(VertexId v);
   void foresee_bends(VertexId first);
   const std::vector<VertexId>& order();
@@ -97,7 +101,6 @@ class Gathering {
   void gather_at_doubtful(std::span<const VertexId> doubtful);
   void split_suspects(std::span<const Edge> suspect, double allowed);
   void learn_bend(double foreseen, double found, double noise, std::size_t n);
-  void renew_links();
   double difference(VertexId v, VertexId w) const;
   double usual_bend(VertexId v, VertexId w) const;
   double area_around(VertexId v) const;
@@ -164,8 +167,8 @@ class Gathering {
   const GatheringCallbacks& callbacks_;
   const Stopwatch stopwatch_;
   const DirectLight lights_;
+  const double diagonal_;                       // of the scene, m
   std::optional<HemisphereGather> hemisphere_;  // over the mesh as it was at look_up_anew()
-  std::unordered_map<std::uint64_t, float> split_since_;  // edges split since then, and their |e|
   std::vector<VertexId> order_;          // vertices, each after those it is interpolated from
   std::vector<double> indirect_excess_;  // by vertex, lx: of the errors of E_i
   bool stopped_ = false;

@@ -51,14 +51,16 @@ struct GatheringState {
   /// Errors of interpolation in the middle of edges, lx, positive where it is too bright, by the
   /// ends a < b: a × 2³² + b.
   std::unordered_map<std::uint64_t, float> direct_error, indirect_error;
+  /// Edges that were split since links were last made or found good, and their |e|.
+  std::unordered_map<std::uint64_t, float> split_since;
   double level = 0;  // the tolerance that is being worked for
   int tries = 0;     // levels below the tolerance asked for
-  int grid = 0;      // rays over a hemisphere: cells a side
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
-  double bend_scale = 0.7;  // the rule for errors of interpolating E_i is right times this
-  double bias = 0;          // mean of direct_error, lx
-  Rgb balance = gray(1);    // what is gathered is put right by, so that all light sent arrives
-  double deviation = 0;     // root mean square of σ, lx
+  double narrow_mean_square = 0;  // of interpolating E_d along edges too short to be split, lx²
+  double bend_scale = 0.7;        // the rule for errors of interpolating E_i is right times this
+  double bias = 0;                // mean of direct_error, lx
+  Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
+  double deviation = 0;   // root mean square of σ, lx
   Statistics statistics;
 };
 

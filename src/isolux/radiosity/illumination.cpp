@@ -27,7 +27,8 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   // Few points deserve more rays than each of very many vertices; where little light comes from
   // small parts of the hemisphere, up to twice as many a side, twice over.
   constexpr double kFinerGrid = 1.5;
-  constexpr double kRough = 0.02;
+  constexpr double kMostRough = 0.02, kLeastRough = 0.002;  // σ in parts of E
+  const double rough = std::clamp(solved.error, kLeastRough, kMostRough);
   constexpr int kDoublings = 2;
   // Of what the errors of all emitters would sum up to, were they alike: some cancel.
   constexpr double kAlike = 0.8;
@@ -49,7 +50,7 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
         hemisphere.trace(receivers[i], side, seed, i, row);
         indirect = hemisphere.gather_with_error(row, irradiance);
         result[i].irradiance = direct[i] + indirect.irradiance;
-        if (side == finest || indirect.error <= kRough * luminance(result[i].irradiance)) break;
+        if (side == finest || indirect.error <= rough * luminance(result[i].irradiance)) break;
       }
       const double emitters = luminance(hemisphere.reflected(row, errors));
       result[i].error =

@@ -23,7 +23,7 @@ struct Statistics {
   double mesh_area = 0;           ///< m²
 
   // Of gathering alone.
-  int gather_rays = 0;          ///< over the hemisphere of each point that gathers
+  int gather_rays = 0;          ///< over the hemisphere of a point that gathers, on average
   std::uint64_t gatherers = 0;  ///< vertices whose indirect light was gathered, not interpolated
   double absorbed_flux = 0;     ///< lm
   double escaped_flux = 0;      ///< lm: left the scene, or fell on black backs
@@ -32,6 +32,7 @@ struct Statistics {
   double error = 0;             ///< estimated root mean square, relative to mean_irradiance
   double discretization_error = 0;  ///< its part from interpolation
   double sampling_error = 0;        ///< its part from rays
+  double narrow_error = 0;          ///< not in it: steps of light too narrow for the mesh
   double emitter_error = 0;  ///< lx: what interpolated emitters may add to any gathered value
 
   double cpu_seconds = 0;  ///< not part of the solution's file: it differs between runs

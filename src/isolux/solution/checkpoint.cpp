@@ -65,6 +65,7 @@ void for_each_scalar(State& state, F&& f) {
   f("level", state.level);
   f("direct_mean_square", state.direct_mean_square);
   f("indirect_mean_square", state.indirect_mean_square);
+  f("narrow_mean_square", state.narrow_mean_square);
   f("bend_scale", state.bend_scale);
   f("bias", state.bias);
   f("deviation", state.deviation);
@@ -180,9 +181,9 @@ json state_to_json(const GatheringState& state) {
   put(object, "sent", state.sent);
   put_errors(object, "direct_error", state.direct_error);
   put_errors(object, "indirect_error", state.indirect_error);
+  put_errors(object, "split_since", state.split_since);
   for_each_scalar(state, [&](const char* key, double value) { object[key] = value; });
   object["tries"] = state.tries;
-  object["grid"] = state.grid;
   object["statistics"] = statistics_to_json(state.statistics);
   return object;
 }
@@ -221,6 +222,7 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   if (state.sent.size() != vertex_count) damaged("sent");
   state.direct_error = get_errors(object, "direct_error");
   state.indirect_error = get_errors(object, "indirect_error");
+  state.split_since = get_errors(object, "split_since");
   for_each_scalar(state, [&](const char* key, double& value) {
     const json& j = member(object, key);
     if (!j.is_number()) damaged(key);
@@ -228,7 +230,6 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   });
   constexpr std::uint64_t kMost = 1 << 16;
   state.tries = static_cast<int>(integer_member(object, "tries", kMost));
-  state.grid = static_cast<int>(integer_member(object, "grid", kMost));
   state.statistics = statistics_from_json(member(object, "statistics"));
   return state;
 }

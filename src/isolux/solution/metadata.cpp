@@ -63,6 +63,7 @@ void for_each_statistic(AnyStatistics& statistics, F&& f) {
   f("mean_irradiance", statistics.mean_irradiance);
   f("error", statistics.error);
   f("discretization_error", statistics.discretization_error);
+  f("narrow_error", statistics.narrow_error);
   f("sampling_error", statistics.sampling_error);
   f("emitter_error", statistics.emitter_error);
 }
