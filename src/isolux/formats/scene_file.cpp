@@ -9,6 +9,7 @@
 #include "isolux/formats/gltf/reader.h"
 #include "isolux/formats/mesh/reader.h"
 #include "isolux/formats/mgf/mgf.h"
+#include "isolux/formats/mitsuba/reader.h"
 #include "isolux/formats/obj/reader.h"
 #include "isolux/formats/openscad/reader.h"
 #include "isolux/formats/pbrt/reader.h"
@@ -36,6 +37,7 @@ const std::vector<FormatReader>& format_readers() {
        }},
       {"gltf", {".gltf", ".glb"}, read_gltf},
       {"mgf", {".mgf"}, read_mgf},
+      {"mitsuba", {".xml"}, read_mitsuba},
       {"obj", {".obj"}, read_obj},
       {"openscad", {".csg"}, read_openscad},
       {"pbrt", {".pbrt"}, read_pbrt},

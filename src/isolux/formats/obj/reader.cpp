@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <unordered_map>
 
 #include "isolux/core/error.h"
 #include "isolux/core/file.h"
 #include "isolux/formats/limits.h"
+#include "isolux/formats/obj/geometry.h"
 #include "isolux/formats/obj/materials.h"
-#include "isolux/formats/soup.h"
 #include "isolux/formats/statement_reader.h"
 #include "isolux/scene/spelling.h"
 
@@ -34,16 +33,14 @@ class Reader {
 
  private:
   void read(const Statement& s);
-  void read_vertex(const Statement& s);
   void read_face(const Statement& s);
   void read_library(const Statement& s);
   void use_material(const Statement& s);
-  std::uint32_t corner(const Statement& s, std::size_t i) const;
   Part& part();
 
   Includes includes_;
   Assembly assembly_;
-  std::vector<Vec3> vertices_;
+  obj::Vertices vertices_;
   Textures textures_;
   obj::Materials materials_;
   bool has_library_ = false;
@@ -65,32 +62,6 @@ std::string joined(const Statement& s) {
   return text;
 }
 
-void Reader::read_vertex(const Statement& s) {
-  s.expect_arguments(3, 7, "v x y z");
-  const Vec3 point{s.number(1), s.number(2), s.number(3)};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(point[axis]) <= kFarthest) continue;
-    s.fail(axis + 1, fmt::format("must lie between -{0:g} and {0:g}", kFarthest));
-  }
-  vertices_.push_back(point);
-}
-
-/// The vertex that word `i` of a face names: its number, counted from 1, or back from the last one
-/// where it is negative; what stands behind a slash is of no interest.
-std::uint32_t Reader::corner(const Statement& s, std::size_t i) const {
-  const std::string_view word = s.word(i).substr(0, s.word(i).find('/'));
-  long long number = 0;
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (fault != std::errc{} || end != word.data() + word.size()) {
-    s.fail(i, fmt::format("expected the number of a vertex, not {}", in_quotes(s.word(i))));
-  }
-  const auto count = static_cast<long long>(vertices_.size());
-  if (number == 0 || number > count || number < -count) {
-    s.fail(i, fmt::format("there is no vertex {} here, only {}", number, count));
-  }
-  return static_cast<std::uint32_t>(number > 0 ? number - 1 : count + number);
-}
-
 Part& Reader::part() {
   if (part_) return *part_;
   const std::string name =
@@ -106,10 +77,10 @@ void Reader::read_face(const Statement& s) {
   Part& p = part();
   std::vector<std::uint32_t> corners;
   for (std::size_t i = 1; i < s.size(); ++i) {
-    const std::uint32_t number = corner(s, i);
+    const std::uint32_t number = vertices_.corner(s, i);
     const auto [place, is_new] =
         p.points.try_emplace(number, static_cast<std::uint32_t>(p.soup.points.size()));
-    if (is_new) p.soup.points.push_back(vertices_[number]);
+    if (is_new) p.soup.points.push_back(vertices_.points()[number]);
     corners.push_back(place->second);
   }
   try {
@@ -164,7 +135,7 @@ void Reader::use_material(const Statement& s) {
 
 void Reader::read(const Statement& s) {
   const std::string_view word = s.word(0);
-  if (word == "v") return read_vertex(s);
+  if (word == "v") return vertices_.read(s);
   if (word == "f") return read_face(s);
   if (word == "mtllib") return read_library(s);
   if (word == "usemtl") return use_material(s);
