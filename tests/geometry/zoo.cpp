@@ -8,6 +8,7 @@
 #include "isolux/geometry/csg.h"
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
+#include "isolux/geometry/implicit.h"
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/polygon.h"
@@ -150,6 +151,36 @@ void add_blobs(std::vector<Specimen>& zoo) {
   add("BlobWithDent", 0.3, {{{1, 2, 3}, 2, 1.5}, {{2, 2, 3.5}, 1, -2}, {{0, 1, 3}, 1.5, 0.7}});
 }
 
+/// To first order the distance from the surface.
+Level implicit_level(const Expression& f, Vec3 lower, Vec3 upper) {
+  return [=, box = box_level(lower, upper)](const Vec3& p) {
+    double value = 0;
+    Vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::array<Dual<double>, 3> variables{{{p.x}, {p.y}, {p.z}}};
+      variables[axis].slope = 1;
+      const Dual<double> result = f(variables);
+      value = result.value, gradient[axis] = result.slope;
+    }
+    const double steepness = length(gradient);
+    return std::max(steepness > 0 ? value / steepness : value, box(p));
+  };
+}
+
+void add_implicit(std::vector<Specimen>& zoo) {
+  const auto add = [&](const std::string& name, const char* text, Vec3 lower, Vec3 upper) {
+    const Expression f(text);
+    zoo.push_back({name, std::make_shared<Implicit>(f, lower, upper),
+                   implicit_level(f, lower, upper), box_edges(lower, upper)});
+  };
+  add("ImplicitBall", "(x - 1)^2 + (y - 2)^2 + (z - 3)^2 - 2.25", {-1, 0, 1}, {3, 4, 4});
+  add("Gyroid", "sin(2*x)*cos(2*y) + sin(2*y)*cos(2*z) + sin(2*z)*cos(2*x)", {-2, -2, -1},
+      {2, 1, 2});
+  add("TangleCube", "x^4 - 5*x^2 + y^4 - 5*y^2 + z^4 - 5*z^2 + 11.8", {-3, -3, -3}, {3, 3, 3});
+  add("Kinked", "max(abs(x), abs(y), abs(z)) + 0.3*sqrt(x^2 + y^2 + z^2) - 1", {-2, -2, -2},
+      {2, 2, 2});
+}
+
 void add_flat(std::vector<Specimen>& zoo) {
   const Vec3 c{1, 2, 3}, n{1, -2, 0.5};
   zoo.push_back({"Disk", std::make_shared<Disk>(c, n, 2), plane_level(c, n)});
@@ -215,6 +246,7 @@ const std::vector<Specimen>& zoo() {
     std::vector<Specimen> all;
     add_basic(all);
     add_blobs(all);
+    add_implicit(all);
     add_flat(all);
     add_swept(all);
     add_composed(all);

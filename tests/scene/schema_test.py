@@ -18,6 +18,8 @@ BEYOND_SCHEMA = {
     "degenerate-shape",
     "disjoint-intersection",
     "height-field-ragged",
+    "implicit-empty",
+    "implicit-function",
     "infinite-length",
     "inverted-box",
     "light-black",

@@ -119,6 +119,15 @@ TEST(ShapeReader, ABlobOfBalls) {
   EXPECT_NEAR(thickness(*blob, {{-10, 0, 0}, {1, 0, 0}}), 4 * std::sqrt(0.5), 1e-12);
 }
 
+// In metres, as its box is once its lengths are read.
+TEST(ShapeReader, AnImplicitShape) {
+  const auto ball = shape(
+      "implicit: {function: x^2 + y^2 + z^2 - 0.25, lower: [-60 cm, -1, -1], upper: [1, 1, 1]}");
+  EXPECT_TRUE(ball->solid());
+  EXPECT_NEAR(thickness(*ball, {{-10, 0, 0}, {1, 0, 0}}), 1, 1e-12);
+  EXPECT_NEAR(ball->bounds().lower.x, -0.6, 1e-15);
+}
+
 TEST(ShapeReader, AnInwardBoxIsARoom) {
   const auto room = shape("box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}");
   Hits hits;

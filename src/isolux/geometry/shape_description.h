@@ -12,7 +12,8 @@
 namespace isolux {
 
 /// A shape as the numbers it was made from, under the keys of the native scene format
-/// (docs/scene-format.md), in metres: what writers of scenes know of it.
+/// (docs/scene-format.md), in metres: what writers of scenes know of it. Texts live as long as the
+/// shape.
 struct ShapeDescription {
   using Triangles = std::vector<std::array<std::uint32_t, 3>>;
   using Outlines = std::vector<std::vector<Vec3>>;
@@ -20,7 +21,7 @@ struct ShapeDescription {
   struct Field;
   using Record = std::vector<Field>;  ///< a map within a list
   using Value = std::variant<bool, double, Vec3, std::vector<double>, std::vector<Vec3>, Triangles,
-                             Outlines, Rows, std::vector<Record>>;
+                             Outlines, Rows, std::vector<Record>, std::string_view>;
   struct Field {
     std::string_view key;
     Value value;

@@ -11,6 +11,7 @@
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/frustum.h"
+#include "isolux/geometry/implicit.h"
 #include "isolux/geometry/instance.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/reversed.h"
@@ -90,6 +91,19 @@ ShapePtr read_blob(const Value& value) {
   return make_shape<Blob>(value, fields.require("threshold").number(), std::move(balls));
 }
 
+ShapePtr read_implicit(const Value& value) {
+  const Fields fields(value, {"function", "lower", "upper"});
+  const Value text = fields.require("function");
+  std::optional<Expression> function;
+  try {
+    function.emplace(text.text());
+  } catch (const InputError& error) {
+    text.fail(error.what());
+  }
+  return make_shape<Implicit>(value, std::move(*function), fields.require("lower").point(),
+                              fields.require("upper").point());
+}
+
 ShapePtr read_box(const Value& value) {
   const Fields fields(value, {"lower", "upper", "inward"});
   const ShapePtr box =
@@ -160,6 +174,7 @@ constexpr ShapeKind kShapeKinds[] = {
     {"disk", plain<read_disk>},
     {"torus", plain<read_torus>},
     {"blob", plain<read_blob>},
+    {"implicit", plain<read_implicit>},
     {"box", plain<read_box>},
     {"parallelogram", plain<read_parallelogram>},
     {"polygon", plain<read_polygon>},

@@ -38,6 +38,7 @@ void new_line(std::string& text, std::size_t indent) {
 
 std::size_t size_of(bool) { return 1; }
 std::size_t size_of(double) { return 1; }
+std::size_t size_of(std::string_view) { return 1; }
 std::size_t size_of(const Vec3&) { return 3; }
 std::size_t size_of(const std::vector<double>& list) { return list.size(); }
 std::size_t size_of(const std::vector<Vec3>& list) { return 3 * list.size(); }
@@ -73,6 +74,7 @@ std::string triangle(const std::array<std::uint32_t, 3>& t) {
 
 std::string flow(bool flag) { return flag ? "true" : "false"; }
 std::string flow(double number) { return to_yaml(number); }
+std::string flow(std::string_view text) { return to_yaml(text); }
 std::string flow(const Vec3& v) { return to_yaml(v); }
 std::string flow(const std::vector<double>& list) { return to_yaml_list(list); }
 std::string flow(const std::vector<Vec3>& list) { return to_yaml_list(list); }
@@ -175,7 +177,7 @@ void append_field(std::string& text, const ShapeDescription::Field& field, std::
   }
   std::visit(
       [&](const auto& value) {
-        if constexpr (requires { value.size(); }) {
+        if constexpr (requires { append_items(text, value, indent); }) {
           append_items(text, value, indent + 2);
         } else {
           text += ' ' + flow(value);
