@@ -128,6 +128,21 @@ TEST(ShapeReader, AnImplicitShape) {
   EXPECT_NEAR(ball->bounds().lower.x, -0.6, 1e-15);
 }
 
+// Flat, but that its middle is drawn up: by 3/4 · 3/4 of 16 cm at (1/2, 1/2).
+TEST(ShapeReader, ABezierSurface) {
+  const auto sail = shape(
+      "bezier: {patches: [[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], "
+      "[0, 1, 0], [1, 1, 16 cm], [2, 1, 16 cm], [3, 1, 0], "
+      "[0, 2, 0], [1, 2, 16 cm], [2, 2, 16 cm], [3, 2, 0], "
+      "[0, 3, 0], [1, 3, 0], [2, 3, 0], [3, 3, 0]]]}");
+  EXPECT_FALSE(sail->solid());
+  Hits hits;
+  sail->intersect({{1.5, 1.5, 5}, {0, 0, -1}}, hits);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_NEAR(hits[0].point.z, 0.09, 1e-15);
+  EXPECT_EQ(hits[0].normal, (Vec3{0, 0, 1}));
+}
+
 TEST(ShapeReader, AnInwardBoxIsARoom) {
   const auto room = shape("box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}");
   Hits hits;

@@ -13,12 +13,6 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 using std::numbers::pi;
 
-void require_few_triangles(double count) {
-  if (count <= kMostTriangles * (1 + 1e-9)) return;
-  throw InputError(fmt::format(
-      "cutting the surface gives more than {:g} triangles; use a longer max_edge", kMostTriangles));
-}
-
 /// Shirley and Chiu 1997: the square [−1, 1]² onto the unit disk, squares to circles.
 Vec3 concentric(double a, double b) {
   if (a == 0 && b == 0) return {};
@@ -91,6 +85,12 @@ bool cut_triangle(TriangleSoup& soup, Corners t, Midpoints& midpoints, std::vect
 }
 
 }  // namespace
+
+void require_few_triangles(double count) {
+  if (count <= kMostTriangles * (1 + 1e-9)) return;
+  throw InputError(fmt::format(
+      "cutting the surface gives more than {:g} triangles; use a longer max_edge", kMostTriangles));
+}
 
 double piece_count(double length, double max_edge) {
   if (!(max_edge > 0)) {

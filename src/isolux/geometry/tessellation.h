@@ -11,6 +11,9 @@ namespace isolux {
 
 inline constexpr double kMostTriangles = 1e6;
 
+/// Throws where `count` is too many.
+void require_few_triangles(double count);
+
 /// The number of equal pieces, at least 1, no longer than max_edge, that `length` is cut into.
 double piece_count(double length, double max_edge);
 

@@ -183,6 +183,7 @@ constexpr ShapeKind kShapeKinds[] = {
     {"revolution", plain<read_revolution>},
     {"sweep", plain<read_sweep>},
     {"height_field", plain<read_height_field>},
+    {"bezier", plain<read_bezier>},
     {"union", read_csg<CsgOperation::unite>},
     {"intersection", read_csg<CsgOperation::intersect>},
     {"difference", read_csg<CsgOperation::subtract>},

@@ -1,5 +1,6 @@
 #include "isolux/scene/shapes_from_lists.h"
 
+#include "isolux/geometry/bezier.h"
 #include "isolux/geometry/height_field.h"
 #include "isolux/geometry/polygon.h"
 #include "isolux/geometry/prism.h"
@@ -117,6 +118,16 @@ ShapePtr read_height_field(const Value& value) {
   return make_shape<HeightField>(value, fields.require("corner").point(),
                                  fields.require("u").point(), fields.require("v").point(),
                                  std::move(heights));
+}
+
+ShapePtr read_bezier(const Value& value) {
+  const Fields fields(value, {"patches"});
+  std::vector<std::vector<Vec3>> patches;
+  for (const Value& patch : fields.require("patches").items(1)) {
+    std::vector<Vec3>& points = patches.emplace_back();
+    for (const Value& point : patch.items(16, 16)) points.push_back(point.point());
+  }
+  return make_shape<Bezier>(value, std::move(patches));
 }
 
 }  // namespace isolux

@@ -12,5 +12,6 @@ ShapePtr read_prism(const Value& value);
 ShapePtr read_revolution(const Value& value);
 ShapePtr read_sweep(const Value& value);
 ShapePtr read_height_field(const Value& value);
+ShapePtr read_bezier(const Value& value);
 
 }  // namespace isolux
