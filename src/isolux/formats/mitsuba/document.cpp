@@ -60,7 +60,11 @@ void Element::fail(const std::string& message) const {
 /// A file as pugixml parses it, which knows the place of each element. Entities are not expanded.
 class Document::File {
  public:
-  explicit File(const SourceText& source) : source_(source), bytes_(source.text) {
+  const std::string& name;
+  bool old = false;  ///< of version 0
+
+  File(const SourceText& source, const std::string& its_name)
+      : name(its_name), source_(source), bytes_(source.text) {
     const std::size_t zero = source.text.find('\0');
     if (zero != std::string::npos) fail(zero, "a byte of 0 in a text");
     const auto result = xml_.load_buffer_inplace(bytes_.data(), bytes_.size(), pugi::parse_default,
@@ -122,57 +126,57 @@ void Document::read(const SourceText& source, Includes& includes, Element& paren
                                                 kMostItems));
   }
   files_.push_back(source.file);
-  const std::string& name = files_.back();
-  File file(source);
-  bool old = false;
-
-  const auto start = [&](const pugi::xml_node& node) {
-    Element element;
-    element.file = &name;
-    file.place(element, node);
-    if (node.type() != pugi::node_element) {
-      element.fail(fmt::format("unexpected text {}", in_quotes(node.value())));
-    }
-    element.tag = old ? snake_case(node.name()) : node.name();
-    if (element.tag == "look_at") element.tag = "lookat";
-    const bool known = std::find(kTags.begin(), kTags.end(), element.tag) != kTags.end();
-    if (!known && node != file.root()) {
-      element.fail(fmt::format("there is no element {}: {}", in_quotes(element.tag),
-                               suggestion(element.tag, kTags)));
-    }
-    for (const pugi::xml_attribute& attribute : node.attributes()) {
-      element.attributes.push_back({attribute.name(), substituted(element, attribute.value())});
-      Attribute& last = element.attributes.back();
-      if (old && last.name == "name") last.value = snake_case(last.value);
-    }
-    return element;
-  };
-  const std::function<void(const pugi::xml_node&, Element&, int)> add_children =
-      [&](const pugi::xml_node& node, Element& to, int level) {
-        for (const pugi::xml_node& child : node.children()) {
-          Element element = start(child);
-          if (level > kDeepest) element.fail("elements nest too deep");
-          if (element.is("scene")) element.fail("<scene> must be the outermost element");
-          if (element.is("include")) {
-            const std::string& path = element.need("filename");
-            const SourceText included = made_at(element, [&] { return includes.open(path); });
-            read(included, includes, to, level);
-            includes.close();
-            continue;
-          }
-          add_children(child, element, level + 1);
-          if (element.is("default")) set_default(element);
-          to.children.push_back(std::move(element));
-        }
-      };
-
-  Element scene = start(file.root());
+  File file(source, files_.back());
+  Element scene = element_of(file, file.root());
   if (!scene.is("scene")) {
     scene.fail(fmt::format("expected <scene>, not <{}>: no scene of Mitsuba", scene.tag));
   }
-  old = scene.text("version").starts_with("0.");
-  if (depth == 0) parent = scene;
-  add_children(file.root(), parent, depth + 1);
+  file.old = scene.text("version").starts_with("0.");
+  if (depth == 0) parent = std::move(scene);
+  add_children(file, file.root(), includes, parent, depth + 1);
+}
+
+/// The element without its children.
+Element Document::element_of(File& file, const pugi::xml_node& node) {
+  Element element;
+  element.file = &file.name;
+  file.place(element, node);
+  if (node.type() != pugi::node_element) {
+    element.fail(fmt::format("unexpected text {}", in_quotes(node.value())));
+  }
+  element.tag = file.old ? snake_case(node.name()) : node.name();
+  if (element.tag == "look_at") element.tag = "lookat";
+  const bool known = std::find(kTags.begin(), kTags.end(), element.tag) != kTags.end();
+  if (!known && node != file.root()) {
+    element.fail(fmt::format("there is no element {}: {}", in_quotes(element.tag),
+                             suggestion(element.tag, kTags)));
+  }
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    std::string value = substituted(element, attribute.value());
+    const bool is_name = std::string_view(attribute.name()) == "name";
+    if (file.old && is_name) value = snake_case(value);
+    element.attributes.push_back({attribute.name(), std::move(value)});
+  }
+  return element;
+}
+
+void Document::add_children(File& file, const pugi::xml_node& node, Includes& includes, Element& to,
+                            int depth) {
+  for (const pugi::xml_node& child : node.children()) {
+    Element element = element_of(file, child);
+    if (depth > kDeepest) element.fail("elements nest too deep");
+    if (element.is("scene")) element.fail("<scene> must be the outermost element");
+    if (element.is("include")) {
+      const std::string& path = element.need("filename");
+      const SourceText included = made_at(element, [&] { return includes.open(path); });
+      read(included, includes, to, depth);
+      includes.close();
+      continue;
+    }
+    add_children(file, child, includes, element, depth + 1);
+    if (element.is("default")) set_default(element);
+    to.children.push_back(std::move(element));
+  }
 }
 
 void Document::set_default(const Element& element) {
@@ -211,7 +215,7 @@ std::string Document::substituted(const Element& element, std::string_view value
 
 void Document::note_ids(const Element& element) {
   if (element.is("alias")) {
-    // Those of elements that come later are noted when they come: an alias needs its own before.
+    // For something that came before it.
     const auto found = ids_.find(element.need("id"));
     if (found == ids_.end()) {
       element.fail(

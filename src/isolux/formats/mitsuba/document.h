@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -9,6 +8,10 @@
 
 #include "isolux/core/error.h"
 #include "isolux/formats/include_path.h"
+
+namespace pugi {
+class xml_node;
+}
 
 namespace isolux::mitsuba {
 
@@ -63,6 +66,9 @@ class Document {
  private:
   class File;
   void read(const SourceText& source, Includes& includes, Element& parent, int depth);
+  Element element_of(File& file, const pugi::xml_node& node);
+  void add_children(File& file, const pugi::xml_node& node, Includes& includes, Element& to,
+                    int depth);
   void note_ids(const Element& element);
   void set_default(const Element& element);
   std::string substituted(const Element& element, std::string_view value);
