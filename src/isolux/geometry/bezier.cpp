@@ -35,6 +35,10 @@ bool may_vanish(const Bicubic& f, double slack) {
   return range.lo <= slack && range.hi >= -slack;
 }
 
+bool may_vanish(const Piece& piece) {
+  return may_vanish(piece.a, kHair) && may_vanish(piece.b, kHair);
+}
+
 /// Both polynomials combined such that their slopes are about 1, 0 and 0, 1.
 struct Straightened {
   Bicubic x, y;
@@ -48,7 +52,7 @@ struct Straightened {
     const auto deviation = [](const Bicubic& f, int along, int across) {
       return largest(f.slopes(along) - Interval(1)) + largest(f.slopes(across));
     };
-    return deviation(x, 0, 1) <= 0.25 && deviation(y, 1, 0) <= 0.25;
+    return deviation(x, 0, 1) <= 0.3 && deviation(y, 1, 0) <= 0.3;
   }
 };
 
@@ -111,10 +115,10 @@ void add_zeros(const Bicubic& a, const Bicubic& b, const Bicubic& along,
                std::vector<Place>& places) {
   thread_local std::vector<Piece> pieces, halves;
   pieces.assign(1, {a, b, {0, 0}, 1, 1});
+  if (!may_vanish(pieces.front())) return;
   for (int i = 0; i < kMostHalvings && pieces.size() <= kMostPieces; ++i) {
     halves.clear();
     for (const Piece& piece : pieces) {
-      if (!may_vanish(piece.a, kHair) || !may_vanish(piece.b, kHair)) continue;
       if (largest(piece.a.range()) < kHair && largest(piece.b.range()) < kHair) {
         if (is_point(piece, along)) add_place(places, piece.at(0.5, 0.5));
         continue;
@@ -137,7 +141,7 @@ void add_zeros(const Bicubic& a, const Bicubic& b, const Bicubic& along,
       (axis == 0 ? half.width_u : half.width_v) *= 0.5;
       for (std::size_t k = 0; k < 2; ++k) {
         half.a = of_a[k], half.b = of_b[k];
-        halves.push_back(half);
+        if (may_vanish(half)) halves.push_back(half);
         (axis == 0 ? half.corner.u : half.corner.v) += axis == 0 ? half.width_u : half.width_v;
       }
     }
@@ -243,7 +247,22 @@ void Bezier::intersect(const Ray& ray, Hits& hits) const {
                    [](const Hit& x, const Hit& y) { return x.t < y.t; });
 }
 
+bool Bezier::occludes(const Ray& ray, double t_min, double t_max) const {
+  for (std::size_t part = 0; part < given_.size(); ++part) {
+    if (part_occludes(part, ray, t_min, t_max)) return true;
+  }
+  return false;
+}
+
 bool Bezier::part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const {
+  // The patch lies between its control points, also along the ray.
+  Interval reach = all_reals();
+  std::swap(reach.lo, reach.hi);
+  for (const Vec3& p : given_[part]) {
+    reach = hull(reach, Interval(dot(p - ray.origin, ray.direction)));
+  }
+  const double square = length_squared(ray.direction), slack = 1e-9 * (reach.hi - reach.lo);
+  if (reach.hi + slack < t_min * square || reach.lo - slack > t_max * square) return false;
   thread_local Hits hits;
   hits.clear();
   intersect_part(part, ray, hits);

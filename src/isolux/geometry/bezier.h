@@ -24,6 +24,7 @@ class Bezier final : public Shape {
   Bounds bounds() const override { return bounds_; }
   /// Asks every patch; ray casters use the parts.
   void intersect(const Ray& ray, Hits& hits) const override;
+  bool occludes(const Ray& ray, double t_min, double t_max) const override;
   bool solid() const override { return false; }
   bool contains(const Vec3&) const override { return false; }
   /// By Gauss' quadrature.

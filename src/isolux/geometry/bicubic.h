@@ -25,8 +25,9 @@ struct Bicubic {
   }
 
   Interval range() const {
-    const auto [least, most] = std::minmax_element(c.begin(), c.end());
-    return {*least, *most};
+    Interval all{c[0], c[0]};
+    for (const double value : c) all = hull(all, Interval(value));
+    return all;
   }
   /// Of the derivative along u (axis 0) or v (axis 1).
   Interval slopes(int axis) const {
