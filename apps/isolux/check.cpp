@@ -25,8 +25,6 @@
 namespace isolux {
 namespace {
 
-constexpr std::size_t kMostListed = 100;  // objects
-
 struct Arguments {
   SceneInput scene;
   bool furnace = false;
@@ -73,13 +71,12 @@ void check(const Scene& scene, const Arguments& a, const std::vector<std::string
       "plain numbers are in {}; bounds {} m\n"
       "{}\n\n"
       "   area m²    flux lm  object (material), bounds in m\n",
-      a.scene.path.string(), report.name.empty() ? "(no name)" : report.name, report.objects.size(),
+      a.scene.path.string(), report.name.empty() ? "(no name)" : report.name, report.object_count,
       report.materials, report.cameras, report.lights, report.flux, describe(report.primitives),
       report.unit, describe(report.bounds), describe_escape(inspection));
-  const std::size_t listed = std::min(kMostListed, report.objects.size());
-  for (std::size_t i = 0; i < listed; ++i) text += describe(report.objects[i]);
-  if (report.objects.size() > listed) {
-    text += fmt::format("{:23}and {} more\n", "", report.objects.size() - listed);
+  for (const ObjectReport& object : report.objects) text += describe(object);
+  if (const std::size_t more = report.object_count - report.objects.size()) {
+    text += fmt::format("{:23}and {} more\n", "", more);
   }
   std::size_t count = 0;
   for (const auto* warnings : {&notes, &report.warnings, &inspection.warnings}) {

@@ -20,7 +20,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(where, fmt::format("can't be read: {}", std::strerror(errno)));
   std::string bytes;
-  std::string block(std::size_t{1} << 20, '\0');
+  std::string block(std::size_t{1} << 16, '\0');
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     bytes.append(block.data(), static_cast<std::size_t>(in.gcount()));
     if (bytes.size() > max_bytes) {

@@ -16,9 +16,9 @@
 namespace isolux {
 namespace {
 
-constexpr std::size_t kMostItems = 500'000;  // points and triangles: what the native format holds
+constexpr std::size_t kMostItems = 2'000'000;  // points and triangles of all meshes
 constexpr std::size_t kMostBeforeMending = 2'000'000;  // of a mesh, before it is mended
-constexpr std::size_t kMostObjects = 100'000;
+constexpr std::size_t kMostObjects = 250'000;
 constexpr double kRoom = 0.5;  // of the scene's size: a room is that large at least
 constexpr std::size_t kMostWitnesses = 64;
 
@@ -63,8 +63,7 @@ std::shared_ptr<const Shape> Assembly::mesh(TriangleSoup soup, bool two_sided) {
   flat_ += left_out.flat;
   repeated_ += left_out.repeated;
   if (soup.triangles.empty()) return nullptr;
-  const std::size_t items = soup.points.size() + soup.triangles.size();
-  count_items(items);
+  count_items(soup.points.size() + soup.triangles.size());
   for (const Vec3& p : soup.points) {
     if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest) continue;
     throw InputError(fmt::format("a point lies more than {:g} m away", kFarthest));
@@ -75,13 +74,11 @@ std::shared_ptr<const Shape> Assembly::mesh(TriangleSoup soup, bool two_sided) {
     flip(soup);
     mesh = std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
   }
-  items_of_[mesh.get()] = items;
   return mesh;
 }
 
 std::shared_ptr<const Shape> Assembly::placed(const std::shared_ptr<const Shape>& mesh,
                                               const Affine& map) {
-  count_items(items_of_[mesh.get()]);
   return std::make_shared<Instance>(mesh, map);
 }
 

@@ -57,8 +57,7 @@ class Assembly {
   Scene scene_;
   std::vector<bool> two_sided_;  ///< a flag an object
   Notes notes_;
-  std::size_t items_ = 0;  ///< points and triangles of all meshes, instances included
-  std::map<const Shape*, std::size_t> items_of_;
+  std::size_t items_ = 0;  ///< points and triangles of all meshes
   std::size_t flat_ = 0, repeated_ = 0, clamped_ = 0, two_sided_lights_ = 0;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;
   NumberedNames material_names_, object_names_;

@@ -92,7 +92,7 @@ FacesSurface prism_faces(const ShapeDescription& shape) {
 
 /// Whether all of the shape is flat.
 bool is_flat(const ShapeDescription& shape) {
-  if (shape.operands.size() == 1) return is_flat(shape.operands.front());
+  if (shape.operands.size() == 1) return is_flat(shape.operands.front()->describe());
   if (shape.kind == "prism") {
     return !shape.find<double>("twist") && !shape.find<std::vector<double>>("scale");
   }
@@ -209,7 +209,7 @@ std::vector<SimpleSurface> surfaces_of(const ShapeDescription& shape, Placement 
   if (shape.transform) at.map = at.map * *shape.transform;
   if (shape.operands.size() == 1) {  // turned inside out
     at.inward = !at.inward;
-    return surfaces_of(shape.operands.front(), at);
+    return surfaces_of(shape.operands.front()->describe(), at);
   }
   if (shape.flag("inward")) at.inward = !at.inward;
   if (auto faces = flat_surface(shape)) {

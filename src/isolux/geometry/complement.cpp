@@ -1,6 +1,7 @@
 #include "isolux/geometry/complement.h"
 
 #include "isolux/core/error.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/geometry/shape_description.h"
 
 namespace isolux {
@@ -14,14 +15,14 @@ Complement::Complement(std::shared_ptr<const Shape> shape) : Reversed(std::move(
 }
 
 ShapeDescription Complement::describe() const {
-  ShapeDescription inner = shape_->describe();
-  if (inner.kind == "box" && !inner.flag("inward")) {
-    inner.fields.push_back({"inward", true});
-    return inner;
+  if (original(shape_).shape->part_count() == 1) {
+    ShapeDescription inner = shape_->describe();
+    if (inner.kind == "box" && !inner.flag("inward")) {
+      inner.fields.push_back({"inward", true});
+      return inner;
+    }
   }
-  ShapeDescription complement{"complement", {}, {}, {}};
-  complement.operands.push_back(std::move(inner));
-  return complement;
+  return {"complement", {}, {shape_}, {}};
 }
 
 }  // namespace isolux

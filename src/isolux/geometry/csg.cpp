@@ -103,21 +103,30 @@ bool Csg::contains(const Vec3& point) const {
 
 bool Csg::unbounded() const { return combine(a_->unbounded(), b_->unbounded()); }
 
+/// Appends the shape, or the list that it is made of where it is joined by `operation` and nothing
+/// else holds it.
+void Csg::list(const std::shared_ptr<const Shape>& shape, CsgOperation operation,
+               std::vector<std::shared_ptr<const Shape>>& operands) {
+  const auto* const csg = dynamic_cast<const Csg*>(shape.get());
+  if (csg && csg->operation_ == operation && shape.use_count() == 1) {
+    csg->list_operands(operands);
+  } else {
+    operands.push_back(shape);
+  }
+}
+
+/// (a ∘ b) ∘ c is a list of three; of a difference all that is subtracted is one union.
+void Csg::list_operands(std::vector<std::shared_ptr<const Shape>>& operands) const {
+  list(a_, operation_, operands);
+  list(b_, operation_ == CsgOperation::subtract ? CsgOperation::unite : operation_, operands);
+}
+
 ShapeDescription Csg::describe() const {
-  const std::string_view kind = operation_ == CsgOperation::unite       ? "union"
-                                : operation_ == CsgOperation::intersect ? "intersection"
-                                                                        : "difference";
-  // (a ∘ b) ∘ c is a list of three; of a difference all that is subtracted is one union.
-  ShapeDescription csg{kind, {}, {}, {}};
-  const auto take = [&](ShapeDescription operand, std::string_view listed) {
-    if (operand.kind != listed || operand.transform) {
-      csg.operands.push_back(std::move(operand));
-      return;
-    }
-    for (ShapeDescription& each : operand.operands) csg.operands.push_back(std::move(each));
-  };
-  take(a_->describe(), kind);
-  take(b_->describe(), operation_ == CsgOperation::subtract ? "union" : kind);
+  ShapeDescription csg;
+  csg.kind = operation_ == CsgOperation::unite       ? "union"
+             : operation_ == CsgOperation::intersect ? "intersection"
+                                                     : "difference";
+  list_operands(csg.operands);
   return csg;
 }
 

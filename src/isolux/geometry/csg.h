@@ -31,6 +31,9 @@ class Csg final : public Shape {
 
  private:
   bool combine(bool in_a, bool in_b) const;
+  static void list(const std::shared_ptr<const Shape>& shape, CsgOperation operation,
+                   std::vector<std::shared_ptr<const Shape>>& operands);
+  void list_operands(std::vector<std::shared_ptr<const Shape>>& operands) const;
 
   CsgOperation operation_;
   std::shared_ptr<const Shape> a_, b_;

@@ -87,4 +87,17 @@ ShapeDescription Instance::describe() const {
   return shape;
 }
 
+Original original(std::shared_ptr<const Shape> shape) {
+  std::vector<Affine> maps;  // from the outermost
+  while (const auto* const instance = dynamic_cast<const Instance*>(shape.get())) {
+    maps.push_back(instance->map());
+    shape = std::shared_ptr<const Shape>(instance->shape());
+  }
+  Original result{std::move(shape), {}};
+  for (; !maps.empty(); maps.pop_back()) {
+    result.map = result.map ? maps.back() * *result.map : maps.back();
+  }
+  return result;
+}
+
 }  // namespace isolux

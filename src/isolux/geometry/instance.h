@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "isolux/core/affine.h"
 #include "isolux/geometry/shape.h"
@@ -32,6 +33,9 @@ class Instance final : public Shape {
   void intersect_part(std::size_t part, const Ray& ray, Hits& hits) const override;
   bool part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const override;
 
+  const std::shared_ptr<const Shape>& shape() const { return shape_; }
+  const Affine& map() const { return map_; }
+
  private:
   Ray to_shape(const Ray& ray) const;
   void to_world(Hits& hits, std::size_t first) const;
@@ -40,5 +44,13 @@ class Instance final : public Shape {
   std::shared_ptr<const Shape> shape_;
   Affine map_, inverse_;
 };
+
+/// A shape without the instances around it, and the map of these together, where there are any.
+struct Original {
+  std::shared_ptr<const Shape> shape;
+  std::optional<Affine> map;
+};
+
+Original original(std::shared_ptr<const Shape> shape);
 
 }  // namespace isolux

@@ -48,10 +48,6 @@ bool Reversed::part_occludes(std::size_t part, const Ray& ray, double t_min, dou
   return shape_->part_occludes(part, ray, t_min, t_max);
 }
 
-ShapeDescription Reversed::describe() const {
-  ShapeDescription reversed{"reversed", {}, {}, {}};
-  reversed.operands.push_back(shape_->describe());
-  return reversed;
-}
+ShapeDescription Reversed::describe() const { return {"reversed", {}, {shape_}, {}}; }
 
 }  // namespace isolux

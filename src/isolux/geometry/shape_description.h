@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "isolux/core/affine.h"
+#include "isolux/geometry/shape.h"
 
 namespace isolux {
 
@@ -29,8 +31,9 @@ struct ShapeDescription {
 
   std::string_view kind;  ///< "sphere", "union", ...
   std::vector<Field> fields;
-  std::vector<ShapeDescription> operands;  ///< of union, difference, complement, reversed ...
-  std::optional<Affine> transform;         ///< applied to all of the above
+  /// What a union, difference, complement, reversed ... is made of.
+  std::vector<std::shared_ptr<const Shape>> operands;
+  std::optional<Affine> transform;  ///< applied to all of the above
 
   /// The value under that key; null where there is none or it is of another type.
   template <typename T>

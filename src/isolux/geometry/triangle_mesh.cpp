@@ -67,6 +67,21 @@ struct TriangleMesh::Line {
     const Vec3 q = p - origin;
     return {q[x] - shear_x * q[z], q[y] - shear_y * q[z], q[z] * per_z};
   }
+
+  bool meets(const Bounds& box) const {
+    double first = -std::numeric_limits<double>::infinity(), last = -first;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = box.lower[axis] - origin[axis], high = box.upper[axis] - origin[axis];
+      if (direction[axis] == 0) {
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      const double a = low / direction[axis], b = high / direction[axis];
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+    }
+    return first <= last;
+  }
 };
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> points, std::vector<Corners> triangles)
@@ -96,6 +111,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> points, std::vector<Corners> triang
     normals_.push_back(normalized(n));
     bounds_.include(box);
   }
+  area_ = isolux::area(soup_);
   double volume = 0;
   const Vec3 center = bounds_.center();
   for (const auto& [a, b, c] : soup_.triangles) {
@@ -148,12 +164,42 @@ std::optional<Hit> TriangleMesh::hit(std::size_t part, const Line& line) const {
   return Hit{t, pa * wa + pb * wb + pc * wc, normals_[part], faces_[part] | (leaves ? kLeaves : 0)};
 }
 
+const BoxTree& TriangleMesh::tree() const {
+  std::call_once(tree_made_, [&] {
+    // Room for the rounding of the tests below.
+    const double room =
+        1e-9 * bounds_.diagonal() + 1e-14 * (length(bounds_.lower) + length(bounds_.upper));
+    std::vector<Bounds> boxes(part_count());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Bounds box = part_bounds(i);
+      boxes[i] = {box.lower - Vec3{1, 1, 1} * room, box.upper + Vec3{1, 1, 1} * room};
+    }
+    tree_ = std::make_unique<BoxTree>(boxes);
+  });
+  return *tree_;
+}
+
+template <typename Visit>
+bool TriangleMesh::any_hit(const Line& line, const Visit& visit) const {
+  constexpr std::size_t kFew = 16;
+  const auto ask = [&](std::size_t part) {
+    const auto h = hit(part, line);
+    return h && visit(*h);
+  };
+  if (part_count() > kFew)
+    return tree().any([&](const Bounds& box) { return line.meets(box); }, ask);
+  for (std::size_t part = 0; part < part_count(); ++part) {
+    if (ask(part)) return true;
+  }
+  return false;
+}
+
 void TriangleMesh::intersect(const Ray& ray, Hits& hits) const {
   const std::size_t first = hits.size();
-  const Line l = line(ray);
-  for (std::size_t part = 0; part < part_count(); ++part) {
-    if (const auto h = hit(part, l)) hits.push_back(*h);
-  }
+  any_hit(line(ray), [&](const Hit& hit) {
+    hits.push_back(hit);
+    return false;
+  });
   std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
             [](const Hit& a, const Hit& b) { return a.t < b.t; });
   if (solid_) keep_boundary(hits, first, unbounded_ ? 1 : 0);
@@ -161,27 +207,20 @@ void TriangleMesh::intersect(const Ray& ray, Hits& hits) const {
 }
 
 bool TriangleMesh::occludes(const Ray& ray, double t_min, double t_max) const {
-  const Line l = line(ray);
-  for (std::size_t part = 0; part < part_count(); ++part) {
-    const auto h = hit(part, l);
-    if (h && h->t > t_min && h->t < t_max) return true;
-  }
-  return false;
+  return any_hit(line(ray), [&](const Hit& hit) { return hit.t > t_min && hit.t < t_max; });
 }
 
 bool TriangleMesh::contains(const Vec3& point) const {
   if (!solid_) return false;
-  const Ray ray{point, {0.3141, 0.2718, 0.9097}};  // any direction will do
-  const Line l = line(ray);
+  if (!unbounded_ && !bounds_.encloses({point, point})) return false;
   int times_inside = unbounded_ ? 1 : 0;
-  for (std::size_t part = 0; part < part_count(); ++part) {
-    const auto h = hit(part, l);
-    if (h && h->t > 0) times_inside += (h->face & kLeaves) ? 1 : -1;
-  }
+  const Ray ray{point, {0.3141, 0.2718, 0.9097}};  // any direction will do
+  any_hit(line(ray), [&](const Hit& hit) {
+    if (hit.t > 0) times_inside += (hit.face & kLeaves) ? 1 : -1;
+    return false;
+  });
   return times_inside > 0;
 }
-
-std::optional<double> TriangleMesh::area() const { return isolux::area(soup_); }
 
 std::optional<TriangleSoup> TriangleMesh::triangulate(double max_edge) const {
   // Points are shared within a face alone.

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <mutex>
+
+#include "isolux/geometry/box_tree.h"
 #include "isolux/geometry/shape.h"
 
 namespace isolux {
@@ -23,14 +27,15 @@ class TriangleMesh final : public Shape {
   TriangleMesh(std::vector<Vec3> points, std::vector<std::array<std::uint32_t, 3>> triangles);
 
   Bounds bounds() const override { return bounds_; }
-  /// Asks every triangle; ray casters use the parts.
+  /// Those of many triangles keep a tree, made when it is first asked for: ray casters use the
+  /// parts.
   void intersect(const Ray& ray, Hits& hits) const override;
   bool occludes(const Ray& ray, double t_min, double t_max) const override;
   bool solid() const override { return solid_; }
   bool contains(const Vec3& point) const override;
   bool unbounded() const override { return unbounded_; }
   std::uint32_t face_count() const override { return face_count_; }
-  std::optional<double> area() const override;
+  std::optional<double> area() const override { return area_; }
   std::optional<TriangleSoup> triangulate(double max_edge) const override;
   ShapeDescription describe() const override;
 
@@ -44,14 +49,21 @@ class TriangleMesh final : public Shape {
   Line line(const Ray& ray) const;
   /// The hit, marked where the line leaves.
   std::optional<Hit> hit(std::size_t part, const Line& line) const;
+  /// Calls visit(hit) for each triangle that the line meets, until one returns true; that then.
+  template <typename Visit>
+  bool any_hit(const Line& line, const Visit& visit) const;
+  const BoxTree& tree() const;
 
   TriangleSoup soup_;
   std::vector<Vec3> normals_;         ///< one a triangle
   std::vector<std::uint32_t> faces_;  ///< one a triangle
   std::uint32_t face_count_ = 0;
+  double area_;
   Bounds bounds_;
   bool solid_ = false;
   bool unbounded_ = false;
+  mutable std::once_flag tree_made_;
+  mutable std::unique_ptr<const BoxTree> tree_;
 };
 
 }  // namespace isolux

@@ -14,11 +14,12 @@ namespace {
 using Index = std::uint32_t;
 using Points = std::vector<Hit>;
 
-constexpr double kAlike = 0.9999;   // cosine between parallel normals
-constexpr double kDeep = 1e-3;      // of the smaller object: inside a solid for sure
-constexpr double kThrough = 5e-3;   // of a line in a face: what crosses the face does so by more
-constexpr std::size_t kLooks = 16;  // points of an object from which to look
-constexpr std::size_t kMostPairs = 4096;  // that are looked at closely
+constexpr double kAlike = 0.9999;  // cosine between parallel normals
+constexpr double kDeep = 1e-3;     // of the smaller object: inside a solid for sure
+constexpr double kThrough = 5e-3;  // of a line in a face: what crosses the face does so by more
+constexpr std::size_t kMostLooks = 16, kLeastLooks = 4;  // points of an object to look from
+constexpr std::size_t kAllLooks = 400'000;               // about, in a scene of many objects
+constexpr std::size_t kMostPairs = 4096;                 // that are looked at closely
 
 /// All there is to know of one object by itself.
 struct Look {
@@ -40,7 +41,8 @@ class Inspector {
     Look look;
     Random random(4, i);
     for (const Hit& point : points_[i]) note_covers(i, point, look);
-    const std::size_t n = std::min(kLooks, points_[i].size());
+    const std::size_t share = kAllLooks / points_.size();
+    const std::size_t n = std::min(std::clamp(share, kLeastLooks, kMostLooks), points_[i].size());
     for (std::size_t k = 0; k < n; ++k) {
       note_solids(i, points_[i][k], random, look.inside);
       note_crossings(i, points_[i][k], points_[i][random.below(points_[i].size())], look.crossing);

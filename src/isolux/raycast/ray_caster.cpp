@@ -2,12 +2,30 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <unordered_map>
 
+#include "isolux/geometry/box_tree.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/raycast/embree_device.h"
 #include "isolux/raycast/shaft.h"
 
 namespace isolux {
 namespace {
+
+/// An object as Embree sees it.
+struct Primitive {
+  const Object* object;
+  std::uint32_t index;
+  bool both_sides;
+};
+
+/// A shape whose tree several objects share, each through a map of its own.
+struct SharedShape {
+  const Shape* shape;
+  double room = 0;  ///< m in the shape's frame, that rays may be off once they are mapped
+  RTCScene rtc = nullptr;
+};
 
 /// Rays travel with their double-precision original; Embree's own single-precision ray only finds
 /// the boxes to look into.
@@ -24,18 +42,14 @@ struct Query : RTCIntersectContext {
   std::vector<SurfaceHit>* all = nullptr;
   // For occluded(): the rays of the packet, by their id.
   std::span<const Segment> segments;
+  // All objects, for what is met in a tree that several of them share.
+  std::span<const Primitive> objects;
 };
 
 Ray ray_of(const Segment& s) { return {s.from, s.to - s.from}; }
 
 constexpr double kSegmentEnd = 1 - 1e-6;
-
-/// An object as Embree sees it.
-struct Primitive {
-  const Object* object;
-  std::uint32_t index;
-  bool both_sides;
-};
+constexpr std::size_t kManyParts = 8;  // of a shape: worth a tree of its own
 
 SurfaceHit surface_hit(const Primitive& primitive, const Hit& hit) {
   return {hit.t, hit.point, hit.normal, {primitive.index, hit.face}, false};
@@ -66,12 +80,9 @@ bool covers(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   return rank(a) > rank(b);
 }
 
-void bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
-  const Bounds b = primitive.object->shape->part_bounds(args->primID);
+void set_bounds(const Bounds& b, double room, RTCBounds& out) {
   // Rays arrive rounded to single precision: the boxes have room for that.
-  const double slack = 4e-7 * (length(b.lower) + length(b.upper)) + 1e-30;
-  RTCBounds& out = *args->bounds_o;
+  const double slack = room + 4e-7 * (length(b.lower) + length(b.upper)) + 1e-30;
   out.lower_x = static_cast<float>(b.lower.x - slack);
   out.lower_y = static_cast<float>(b.lower.y - slack);
   out.lower_z = static_cast<float>(b.lower.z - slack);
@@ -80,10 +91,27 @@ void bounds_callback(const RTCBoundsFunctionArguments* args) {
   out.upper_z = static_cast<float>(b.upper.z + slack);
 }
 
+void bounds_callback(const RTCBoundsFunctionArguments* args) {
+  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
+  set_bounds(primitive.object->shape->part_bounds(args->primID), 0, *args->bounds_o);
+}
+
+void shared_bounds_callback(const RTCBoundsFunctionArguments* args) {
+  const auto& shared = *static_cast<const SharedShape*>(args->geometryUserPtr);
+  set_bounds(shared.shape->part_bounds(args->primID), shared.room, *args->bounds_o);
+}
+
+/// The object that a callback is about: that of its geometry, or of the instance around it.
+const Primitive& met_object(const Query& query, const void* geometry) {
+  const unsigned instance = query.instID[0];
+  return instance == RTC_INVALID_GEOMETRY_ID ? *static_cast<const Primitive*>(geometry)
+                                             : query.objects[instance];
+}
+
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *static_cast<Query*>(args->context);
-  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
+  const Primitive& primitive = met_object(query, args->geometryUserPtr);
   thread_local Hits hits;
   hits.clear();
   primitive.object->shape->intersect_part(args->primID, *query.ray, hits);
@@ -114,7 +142,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
   auto& query = *static_cast<Query*>(args->context);
-  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
+  const Primitive& primitive = met_object(query, args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (!args->valid[lane]) continue;
     const Segment& segment = query.segments[RTCRayN_id(args->ray, args->N, lane)];
@@ -133,48 +161,119 @@ class RayCaster::Impl {
     rtcSetSceneFlags(rtc, RTC_SCENE_FLAG_ROBUST);
     primitives.reserve(scene.objects.size());
     for (const Object& object : scene.objects) add(object);
+    find_shared();
+    for (const Primitive& primitive : primitives) attach(primitive);
     rtcCommitScene(rtc);
+    std::vector<Bounds> boxes;
+    for (const std::uint32_t i : solids) boxes.push_back(bounds[i]);
+    solid_tree.emplace(boxes);
   }
-  ~Impl() { rtcReleaseScene(rtc); }
+  ~Impl() {
+    rtcReleaseScene(rtc);
+    for (const auto& [shape, shared] : shared_shapes) rtcReleaseScene(shared.rtc);
+  }
 
   void add(const Object& object) {
     const auto index = static_cast<std::uint32_t>(primitives.size());
     const bool solid = object.shape->solid();
     primitives.push_back({&object, index, object.sides == Sides::both && !solid});
     bounds.push_back(object.shape->bounds());
-    if (solid) {
-      solids.push_back({object.shape.get(), bounds.back(), object.shape->unbounded()});
+    if (solid) (object.shape->unbounded() ? endless : solids).push_back(index);
+  }
+
+  /// Finds what stands in several places and has many parts, and makes its trees.
+  void find_shared() {
+    std::unordered_map<const Shape*, std::size_t> uses;
+    for (const Object& object : scene.objects) ++uses[original(object.shape).shape.get()];
+    double reach = length(scene.bounds().lower) + length(scene.bounds().upper);
+    for (const Camera& camera : scene.cameras) reach = std::max(reach, length(camera.eye));
+    for (const Object& object : scene.objects) {
+      const auto [shape, map] = original(object.shape);
+      if (uses[shape.get()] == 1 || shape->part_count() < kManyParts) continue;
+      if (const auto room = room_for(map.value_or(Affine{}), reach)) {
+        SharedShape& shared =
+            shared_shapes.try_emplace(shape.get(), SharedShape{shape.get()}).first->second;
+        shared.room = std::max(shared.room, *room);
+      }
     }
+    for (auto& [shape, shared] : shared_shapes) {
+      shared.rtc = rtcNewScene(device.get());
+      rtcSetSceneFlags(shared.rtc, RTC_SCENE_FLAG_ROBUST);
+      attach_parts(shared.rtc, 0, *shape, shared_bounds_callback, &shared);
+      rtcCommitScene(shared.rtc);
+    }
+  }
+
+  /// How far off, in the frame of a shape, Embree's rays may be once they are mapped there, from
+  /// anywhere within `reach` of the origin; nothing where single precision is too coarse for that.
+  static std::optional<double> room_for(const Affine& map, double reach) {
+    constexpr double kMostDistorted = 1e4, kRounding = 4e-7;
+    const auto norm = [](const Affine& m) {
+      return std::sqrt(length_squared(m.linear[0]) + length_squared(m.linear[1]) +
+                       length_squared(m.linear[2]));
+    };
+    const double back = norm(*map.inverse()), distorted = norm(map) * back;
+    if (!(distorted < kMostDistorted)) return std::nullopt;
+    return kRounding * distorted * back * (reach + length(map.translation));
+  }
+
+  void attach(const Primitive& primitive) {
+    const auto [shape, map] = original(primitive.object->shape);
+    const auto shared = shared_shapes.find(shape.get());
+    const Affine placed = map.value_or(Affine{});
+    if (shared == shared_shapes.end() || !room_for(placed, 0)) {
+      return attach_parts(rtc, primitive.index, *primitive.object->shape, bounds_callback,
+                          const_cast<Primitive*>(&primitive));
+    }
+    std::array<float, 12> columns;
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        columns[static_cast<std::size_t>(3 * k + i)] =
+            static_cast<float>(placed.linear[static_cast<std::size_t>(i)][k]);
+      }
+      columns[static_cast<std::size_t>(9 + i)] = static_cast<float>(placed.translation[i]);
+    }
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, shared->second.rtc);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    attach(rtc, primitive.index, geometry);
+  }
+
+  void attach_parts(RTCScene to, unsigned id, const Shape& shape, RTCBoundsFunction box,
+                    void* data) {
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(object.shape->part_count()));
-    rtcSetGeometryUserData(geometry, &primitives.back());
-    rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(shape.part_count()));
+    rtcSetGeometryUserData(geometry, data);
+    rtcSetGeometryBoundsFunction(geometry, box, nullptr);
     rtcSetGeometryIntersectFunction(geometry, intersect_callback);
     rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+    attach(to, id, geometry);
+  }
+
+  static void attach(RTCScene to, unsigned id, RTCGeometry geometry) {
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(rtc, geometry);
+    rtcAttachGeometryByID(to, geometry, id);
     rtcReleaseGeometry(geometry);
   }
 
   /// Sends the query's ray through the tree.
   void trace(Query& query) const {
     rtcInitIntersectContext(&query);
+    query.objects = primitives;
     RTCRayHit rayhit = embree_ray(*query.ray, query.within.max);
     rtcIntersect1(rtc, &query, &rayhit);
   }
-
-  struct Solid {
-    const Shape* shape;
-    Bounds bounds;
-    bool unbounded;  // contains what lies beyond its bounds, as the walls of a room do
-  };
 
   const Scene& scene;
   std::shared_ptr<RTCDeviceTy> device = embree_device();
   RTCScene rtc = nullptr;
   std::vector<Primitive> primitives;  // by object; Embree holds pointers to them
   std::vector<Bounds> bounds;         // by object
-  std::vector<Solid> solids;
+  // By original; Embree holds pointers to these too.
+  std::unordered_map<const Shape*, SharedShape> shared_shapes;
+  // Objects that are solid, and those that are so beyond their bounds too, as a room's walls are.
+  std::vector<std::uint32_t> solids, endless;
+  std::optional<BoxTree> solid_tree;  // of `solids`
 };
 
 RayCaster::RayCaster(const Scene& scene)
@@ -238,6 +337,7 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
   constexpr std::size_t kLanes = 16;
   Query query;
   rtcInitIntersectContext(&query);
+  query.objects = impl_->primitives;
   query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (std::size_t first = 0; first < segments.size(); first += kLanes) {
     const std::size_t n = std::min(kLanes, segments.size() - first);
@@ -310,12 +410,16 @@ void RayCaster::occluded(const Blockers& among, std::span<const Segment> segment
 
 bool RayCaster::buried(const Vec3& point, const Vec3& normal) const {
   const Vec3 p = point + normal * epsilon();
-  return std::any_of(impl_->solids.begin(), impl_->solids.end(), [&](const Impl::Solid& solid) {
-    const Bounds& b = solid.bounds;
-    const bool within = p.x >= b.lower.x && p.y >= b.lower.y && p.z >= b.lower.z &&
-                        p.x <= b.upper.x && p.y <= b.upper.y && p.z <= b.upper.z;
-    return (within || solid.unbounded) && solid.shape->contains(p);
-  });
+  const auto inside = [&](std::uint32_t i) { return impl_->scene.objects[i].shape->contains(p); };
+  return std::any_of(impl_->endless.begin(), impl_->endless.end(), inside) ||
+         impl_->solid_tree->any(
+             [&](const Bounds& box) {
+               return box.encloses({p, p});
+             },
+             [&](std::uint32_t k) {
+               const std::uint32_t i = impl_->solids[k];
+               return impl_->bounds[i].encloses({p, p}) && inside(i);
+             });
 }
 
 }  // namespace isolux

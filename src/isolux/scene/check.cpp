@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 
+#include "isolux/geometry/instance.h"
 #include "isolux/geometry/shape_description.h"
 #include "isolux/scene/spelling.h"
 
@@ -93,11 +95,29 @@ void check_sizes(const Scene& scene, double scene_size, Warnings& warnings) {
   }
 }
 
-/// Counts the primitives that a shape is made of.
-void count_primitives(const ShapeDescription& shape, std::map<std::string, std::size_t>& counts) {
-  if (shape.operands.empty()) ++counts[std::string(shape.kind)];
-  for (const ShapeDescription& operand : shape.operands) count_primitives(operand, counts);
-}
+using Counts = std::map<std::string, std::size_t>;
+
+/// The primitives that shapes are made of; a shape that stands in many places is asked once.
+class Primitives {
+ public:
+  const Counts& of(const std::shared_ptr<const Shape>& shape) {
+    const std::shared_ptr<const Shape> first = original(shape).shape;
+    const auto [known, is_new] = known_.try_emplace(first.get());
+    Counts& counts = known->second;  // stays where it is
+    if (!is_new) return counts;
+    const ShapeDescription description = first->describe();
+    if (description.operands.empty()) counts[std::string(description.kind)] = 1;
+    for (const auto& operand : description.operands) add(of(operand), counts);
+    return counts;
+  }
+
+  static void add(const Counts& some, Counts& all) {
+    for (const auto& [kind, count] : some) all[kind] += count;
+  }
+
+ private:
+  std::unordered_map<const Shape*, Counts> known_;
+};
 
 }  // namespace
 
@@ -110,20 +130,24 @@ void add_some(std::vector<std::string>& warnings, const std::vector<std::string>
   }
 }
 
-SceneReport check_scene(const Scene& scene) {
+SceneReport check_scene(const Scene& scene, std::size_t listed) {
   SceneReport report;
   report.name = scene.name;
   report.unit = scene.unit;
+  report.object_count = scene.objects.size();
   report.materials = scene.materials.size();
   report.cameras = scene.cameras.size();
   report.bounds = scene.bounds();
+  Primitives primitives;
   for (const Object& object : scene.objects) {
-    report.objects.push_back({object.name, scene.materials[object.material].name,
-                              surface_area(*object.shape), luminous_flux(object),
-                              object.shape->bounds()});
+    const double flux = luminous_flux(object);
+    if (report.objects.size() < listed) {
+      report.objects.push_back({object.name, scene.materials[object.material].name,
+                                surface_area(*object.shape), flux, object.shape->bounds()});
+    }
     report.lights += object.emits() ? 1 : 0;
-    report.flux += report.objects.back().flux;
-    count_primitives(object.shape->describe(), report.primitives);
+    report.flux += flux;
+    Primitives::add(primitives.of(object.shape), report.primitives);
   }
   for (const Source& source : scene.sources) {
     report.lights += 1;

@@ -22,7 +22,8 @@ struct ObjectReport {
 struct SceneReport {
   std::string name;
   std::string unit;  ///< of plain numbers in the file
-  std::vector<ObjectReport> objects;
+  std::size_t object_count = 0;
+  std::vector<ObjectReport> objects;              ///< the first ones
   std::map<std::string, std::size_t> primitives;  ///< how many of each kind; of CSG, its operands'
   std::size_t materials = 0;
   std::size_t cameras = 0;
@@ -35,7 +36,8 @@ struct SceneReport {
 /// Adds the first three of `alike`, warnings of one kind, and how many more there are.
 void add_some(std::vector<std::string>& warnings, const std::vector<std::string>& alike);
 
-/// Sums up the scene and looks for what is allowed but probably not meant. Casts no rays.
-SceneReport check_scene(const Scene& scene);
+/// Sums up the scene and looks for what is allowed but probably not meant. Casts no rays. Says more
+/// of the first `listed` objects.
+SceneReport check_scene(const Scene& scene, std::size_t listed = 100);
 
 }  // namespace isolux

@@ -53,9 +53,10 @@ Sides read_sides(const Fields& fields, const Shape& shape) {
   return sides;
 }
 
-Object read_object(const Value& value, std::size_t number, const MaterialIndex& materials) {
+Object read_object(const Value& value, std::size_t number, const MaterialIndex& materials,
+                   const ShapeLibrary& shapes) {
   const Fields fields(value, {"name", "shape", "material", "sides", "transform", "emission"});
-  const ReadShape read = read_shape(fields.require("shape"));
+  const ReadShape read = shapes.read(fields.require("shape"));
   Object object;
   const std::optional<Value> name = fields.find("name");
   object.name = name ? name->text() : fmt::format("{} {}", read.kind, number);
@@ -72,8 +73,8 @@ Scene read_document(const YamlDocument& document) {
   ReadingContext context{document.file};
   const Value root(context, *document.root, "scene");
   check_version(root);
-  const Fields fields(root,
-                      {"isolux", "name", "unit", "materials", "objects", "lights", "cameras"});
+  const Fields fields(
+      root, {"isolux", "name", "unit", "materials", "shapes", "objects", "lights", "cameras"});
   Scene scene;
   if (const auto name = fields.find("name")) scene.name = name->text();
   if (const auto unit = fields.find("unit")) {
@@ -85,10 +86,14 @@ Scene read_document(const YamlDocument& document) {
     materials.emplace(name.text(), static_cast<std::uint32_t>(scene.materials.size()));
     scene.materials.push_back(read_material(name, value));
   }
+  ShapeLibrary shapes;
+  if (const auto named = fields.find("shapes")) {
+    for (const auto& [name, shape] : named->entries()) shapes.add(name, shape);
+  }
   const Value objects = fields.require("objects");
   for (const Value& object : objects.items()) {
     scene.objects.push_back(
-        read_object(object.labelled("object"), scene.objects.size() + 1, materials));
+        read_object(object.labelled("object"), scene.objects.size() + 1, materials, shapes));
   }
   if (scene.objects.empty()) objects.fail("the scene is empty: give at least one object");
   if (const auto lights = fields.find("lights")) {

@@ -23,9 +23,54 @@
 #include "isolux/scene/transform_reader.h"
 
 namespace isolux {
+
+/// Where in an object or a named shape a shape is read, and how much it holds so far.
+struct ShapeNesting {
+  const ShapeLibrary& library;
+  int& deepest;
+  std::size_t& count;
+  int depth = 0;
+
+  /// Counts shapes that reach `more` levels further down.
+  void enter(const Value& place, int more, std::size_t shapes) const;
+  /// The shape of that name.
+  std::shared_ptr<const Shape> named(const Value& name) const;
+};
+
 namespace {
 
-constexpr int kDeepestNesting = 100;  ///< of shapes within shapes
+constexpr int kDeepestNesting = 100;             ///< of shapes within shapes
+constexpr std::size_t kMostWithinOne = 100'000;  ///< shapes, where some have names
+
+}  // namespace
+
+void ShapeNesting::enter(const Value& place, int more, std::size_t shapes) const {
+  deepest = std::max(deepest, depth + more);
+  count += shapes;
+  if (deepest > kDeepestNesting) {
+    place.fail(
+        fmt::format("shapes nested more than {} deep: a union, intersection or difference "
+                    "takes any number, so list them side by side",
+                    kDeepestNesting));
+  }
+  if (more > 0 && count > kMostWithinOne) {
+    place.fail(fmt::format("more than {} shapes within one: make several objects", kMostWithinOne));
+  }
+}
+
+ShapePtr ShapeNesting::named(const Value& name) const {
+  const auto found = library.named_.find(name.text());
+  if (found == library.named_.end()) {
+    std::vector<std::string_view> names;
+    for (const auto& [known, shape] : library.named_) names.push_back(known);
+    name.fail(fmt::format("no shape above is named {}: {}", in_quotes(name.text()),
+                          suggestion(name.text(), names)));
+  }
+  enter(name, found->second.depth, found->second.count);
+  return found->second.shape;
+}
+
+namespace {
 
 ShapePtr read_sphere(const Value& value) {
   const Fields fields(value, {"center", "radius"});
@@ -117,11 +162,11 @@ ShapePtr read_parallelogram(const Value& value) {
                                    fields.require("u").point(), fields.require("v").point());
 }
 
-ReadShape read_nested(const Value& value, int depth);
+ReadShape read_nested(const Value& value, ShapeNesting nesting);
 
 /// A shape within that of the given key.
-ShapePtr read_solid(const Value& value, std::string_view outer, int depth) {
-  const ReadShape read = read_nested(value, depth + 1);
+ShapePtr read_solid(const Value& value, std::string_view outer, ShapeNesting nesting) {
+  const ReadShape read = read_nested(value, nesting);
   if (!read.shape->solid()) {
     value.fail(fmt::format("{} takes closed shapes only, and this {} is open", in_quotes(outer),
                            read.kind));
@@ -130,17 +175,17 @@ ShapePtr read_solid(const Value& value, std::string_view outer, int depth) {
 }
 
 /// The shapes that a CSG operation joins.
-std::vector<ShapePtr> read_solids(const Value& value, int depth) {
+std::vector<ShapePtr> read_solids(const Value& value, ShapeNesting nesting) {
   std::vector<ShapePtr> solids;
   for (const Value& operand : value.items(2)) {
-    solids.push_back(read_solid(operand, value.label(), depth));
+    solids.push_back(read_solid(operand, value.label(), nesting));
   }
   return solids;
 }
 
 template <CsgOperation operation>
-ShapePtr read_csg(const Value& value, int depth) {
-  const std::vector<ShapePtr> solids = read_solids(value, depth);
+ShapePtr read_csg(const Value& value, ShapeNesting nesting) {
+  const std::vector<ShapePtr> solids = read_solids(value, nesting);
   try {
     return join(operation, solids);
   } catch (const InputError& error) {
@@ -148,23 +193,25 @@ ShapePtr read_csg(const Value& value, int depth) {
   }
 }
 
-ShapePtr read_complement(const Value& value, int depth) {
-  return make_shape<Complement>(value, read_solid(value, value.label(), depth));
+ShapePtr read_complement(const Value& value, ShapeNesting nesting) {
+  return make_shape<Complement>(value, read_solid(value, value.label(), nesting));
 }
 
-ShapePtr read_reversed(const Value& value, int depth) {
-  return make_shape<Reversed>(value, read_nested(value, depth + 1).shape);
+ShapePtr read_reversed(const Value& value, ShapeNesting nesting) {
+  return make_shape<Reversed>(value, read_nested(value, nesting).shape);
 }
+
+ShapePtr read_instance(const Value& value, ShapeNesting nesting) { return nesting.named(value); }
 
 /// A shape that holds no others.
 template <ShapePtr (*read)(const Value&)>
-ShapePtr plain(const Value& value, int /*depth*/) {
+ShapePtr plain(const Value& value, ShapeNesting /*nesting*/) {
   return read(value);
 }
 
 struct ShapeKind {
   std::string_view key;
-  ShapePtr (*read)(const Value& value, int depth);
+  ShapePtr (*read)(const Value& value, ShapeNesting nesting);
 };
 
 constexpr ShapeKind kShapeKinds[] = {
@@ -189,15 +236,12 @@ constexpr ShapeKind kShapeKinds[] = {
     {"difference", read_csg<CsgOperation::subtract>},
     {"complement", read_complement},
     {"reversed", read_reversed},
+    {"instance", read_instance},
 };
 
-ReadShape read_nested(const Value& value, int depth) {
-  if (depth > kDeepestNesting) {
-    value.fail(
-        fmt::format("shapes nested more than {} deep: a union, intersection or difference "
-                    "takes any number, so list them side by side",
-                    kDeepestNesting));
-  }
+ReadShape read_nested(const Value& value, ShapeNesting nesting) {
+  ++nesting.depth;
+  nesting.enter(value, 0, 1);
   std::vector<std::string_view> known;
   for (const ShapeKind& kind : kShapeKinds) known.push_back(kind.key);
   known.push_back("transform");
@@ -214,7 +258,7 @@ ReadShape read_nested(const Value& value, int depth) {
     const auto kind =
         std::find_if(std::begin(kShapeKinds), std::end(kShapeKinds),
                      [name = key.label()](const ShapeKind& k) { return k.key == name; });
-    read = {kind->key, kind->read(inner, depth)};
+    read = {kind->key, kind->read(inner, nesting)};
   }
   if (!read.shape) {
     known.pop_back();
@@ -226,7 +270,17 @@ ReadShape read_nested(const Value& value, int depth) {
 
 }  // namespace
 
-ReadShape read_shape(const Value& value) { return read_nested(value, 1); }
+void ShapeLibrary::add(const Value& name, const Value& shape) {
+  Named named;
+  named.shape = read_nested(shape, {*this, named.depth, named.count}).shape;
+  named_.emplace(name.text(), std::move(named));
+}
+
+ReadShape ShapeLibrary::read(const Value& value) const {
+  int deepest = 0;
+  std::size_t count = 0;
+  return read_nested(value, {*this, deepest, count});
+}
 
 ShapePtr transformed(ShapePtr shape, const Fields& fields) {
   const std::optional<Value> steps = fields.find("transform");

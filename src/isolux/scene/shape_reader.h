@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "isolux/geometry/shape.h"
@@ -14,8 +16,24 @@ struct ReadShape {
   std::shared_ptr<const Shape> shape;
 };
 
-/// Reads a shape: a map of one shape key, and perhaps a `transform`.
-ReadShape read_shape(const Value& value);
+/// The shapes of a scene that have names, to stand in several places.
+class ShapeLibrary {
+ public:
+  /// Reads a shape that may be made of those that were added before.
+  void add(const Value& name, const Value& shape);
+
+  /// Reads a shape: a map of one shape key, and perhaps a `transform`.
+  ReadShape read(const Value& value) const;
+
+ private:
+  friend struct ShapeNesting;
+  struct Named {
+    std::shared_ptr<const Shape> shape;
+    int depth = 0;          ///< of shapes within shapes
+    std::size_t count = 0;  ///< of shapes that it is made of, all written out
+  };
+  std::map<std::string, Named, std::less<>> named_;
+};
 
 /// The shape under the `transform` among the fields, if there is one.
 std::shared_ptr<const Shape> transformed(std::shared_ptr<const Shape> shape, const Fields& fields);
