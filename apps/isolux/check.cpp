@@ -18,6 +18,7 @@
 #include "isolux/radiosity/solve.h"
 #include "isolux/radiosity/stopwatch.h"
 #include "isolux/scene/spelling.h"
+#include "memory.h"
 #include "output.h"
 #include "progress_line.h"
 #include "scene_input.h"
@@ -61,7 +62,8 @@ std::string describe_escape(const Inspection& inspection) {
                      100.0 * double(escaped) / double(rays));
 }
 
-void check(const Scene& scene, const Arguments& a, const std::vector<std::string>& notes) {
+void check(const Scene& scene, const Arguments& a, const std::vector<std::string>& notes,
+           double scene_memory) {
   const SceneReport report = check_scene(scene);
   const Inspection inspection = inspect_scene(RayCaster(scene));
   std::string text = fmt::format(
@@ -69,11 +71,13 @@ void check(const Scene& scene, const Arguments& a, const std::vector<std::string
       "objects {}, materials {}, cameras {}, lights {} with {:.6g} lm together\n"
       "primitives: {}\n"
       "plain numbers are in {}; bounds {} m\n"
-      "{}\n\n"
+      "{}\n"
+      "memory: {:.3g} MB for the scene, {:.3g} MB at most until now\n\n"
       "   area m²    flux lm  object (material), bounds in m\n",
       a.scene.path.string(), report.name.empty() ? "(no name)" : report.name, report.object_count,
       report.materials, report.cameras, report.lights, report.flux, describe(report.primitives),
-      report.unit, describe(report.bounds), describe_escape(inspection));
+      report.unit, describe(report.bounds), describe_escape(inspection), scene_memory / 1e6,
+      peak_memory() / 1e6);
   for (const ObjectReport& object : report.objects) text += describe(object);
   if (const std::size_t more = report.object_count - report.objects.size()) {
     text += fmt::format("{:23}and {} more\n", "", more);
@@ -136,8 +140,10 @@ void prove(const Scene& scene, const Arguments& a) {
 
 void run(const Arguments& a) {
   const ThreadLimit limit(a.threads);
+  const double before = allocated_memory();
   const SceneFile file = a.scene.load();
-  a.furnace ? prove(file.scene, a) : check(file.scene, a, file.notes);
+  const double scene_memory = allocated_memory() - before;
+  a.furnace ? prove(file.scene, a) : check(file.scene, a, file.notes, scene_memory);
 }
 
 }  // namespace

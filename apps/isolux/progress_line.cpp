@@ -33,20 +33,33 @@ ProgressLine::~ProgressLine() {
   if (shown_) std::fputs(kEraseLine, stderr);
 }
 
-void ProgressLine::show(const Progress& progress) {
-  const auto now = std::chrono::steady_clock::now();
-  if (!enabled_ || (shown_ && now - last_ < std::chrono::milliseconds(100))) return;
+bool ProgressLine::begin() {
+  const Clock::time_point now = Clock::now();
+  if (!enabled_ || (shown_ && now - last_ < std::chrono::milliseconds(100))) return false;
   shown_ = true;
   last_ = now;
+  std::fputs(kEraseLine, stderr);
+  return true;
+}
+
+void ProgressLine::show(const ReadingProgress& progress) {
+  if (Clock::now() - start_ < std::chrono::seconds(1) || !begin()) return;
+  fmt::print(stderr, "{}", progress.step);
+  if (progress.done > 0) fmt::print(stderr, " {:.0f} %", 100 * progress.done);
+  std::fflush(stderr);
+}
+
+void ProgressLine::show(const Progress& progress) {
+  if (!begin()) return;
   if (progress.iterations == 0) {
-    fmt::print(stderr, "{}{}{:.1f} % unshot, {} triangles, {} rays/s", kEraseLine,
+    fmt::print(stderr, "{}{:.1f} % unshot, {} triangles, {} rays/s",
                progress.error > 0 ? fmt::format("± {:.2g} %, ", 100 * progress.error) : "",
                100 * progress.unshot_fraction, progress.triangles, rate(progress.rays_per_second));
     std::fflush(stderr);
     return;
   }
-  fmt::print(stderr, "{}{}/{} iterations, {:.1f} % unshot, {} triangles, {} rays/s, {} left",
-             kEraseLine, progress.iteration, progress.iterations, 100 * progress.unshot_fraction,
+  fmt::print(stderr, "{}/{} iterations, {:.1f} % unshot, {} triangles, {} rays/s, {} left",
+             progress.iteration, progress.iterations, 100 * progress.unshot_fraction,
              progress.triangles, rate(progress.rays_per_second), duration(progress.seconds_left));
   std::fflush(stderr);
 }

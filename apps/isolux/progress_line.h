@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "isolux/radiosity/solve.h"
+#include "isolux/scene/reading_progress.h"
 
 namespace isolux {
 
@@ -16,11 +17,18 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const Progress& progress);
+  /// Shows nothing in the first second.
+  void show(const ReadingProgress& progress);
 
  private:
+  /// Whether it is time to show something; the cursor then stands at the start of an empty line.
+  bool begin();
+
+  using Clock = std::chrono::steady_clock;
   bool enabled_;
   bool shown_ = false;
-  std::chrono::steady_clock::time_point last_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point last_;
 };
 
 }  // namespace isolux

@@ -13,7 +13,9 @@ struct SceneInput {
   std::filesystem::path path;
   std::string format;  ///< empty: by the path's extension
 
-  SceneFile load() const { return load_scene_file(path, format); }
+  /// Reads it, with a line of progress unless `quiet`. Ctrl-C ends the program, with a word and
+  /// kGoalNotReached, before anything is written.
+  SceneFile load(bool quiet = false) const;
 };
 
 /// Adds the argument SCENE and the option --format.

@@ -109,10 +109,13 @@ void add_goal(CLI::App& command, Arguments& a, CLI::Option* preset) {
       ->excludes(preset);
 }
 
-void save_statistics(const Statistics& statistics, const std::filesystem::path& path) {
+void save_statistics(const Statistics& statistics, double scene_memory,
+                     const std::filesystem::path& path) {
   nlohmann::json object = statistics_to_json(statistics);
   object["cpu_seconds"] = statistics.cpu_seconds;
   object["wall_seconds"] = statistics.wall_seconds;
+  object["scene_bytes"] = static_cast<std::uint64_t>(scene_memory);
+  object["peak_bytes"] = static_cast<std::uint64_t>(peak_memory());
   write_file(path, object.dump(2) + "\n");
 }
 
@@ -219,7 +222,9 @@ void run(const Arguments& a) {
   if (!a.checkpoint.empty()) check_output(a.checkpoint, {".checkpoint"});
 
   const ThreadLimit limit(a.threads);
-  auto [scene, notes] = a.scene.load();
+  const double before = allocated_memory();
+  auto [scene, notes] = a.scene.load(a.quiet);
+  const double scene_memory = allocated_memory() - before;
   if (!a.quiet) {
     for (const std::string& note : notes) say("note: " + note);
   }
@@ -231,7 +236,7 @@ void run(const Arguments& a) {
   const double scene_size = scene.bounds().diagonal();
   save_solution({std::move(scene), std::move(solved.mesh), a.options, statistics, kVersion},
                 a.output);
-  if (!a.stats.empty()) save_statistics(statistics, a.stats);
+  if (!a.stats.empty()) save_statistics(statistics, scene_memory, a.stats);
   if (!a.quiet) {
     say(summary(a, statistics));
     const std::string doubt = caution(a, statistics, scene_size);
@@ -252,7 +257,7 @@ void add_solve(CLI::App& program) {
   add_number(command, "--seed", "N", a->options.seed, std::uint64_t{0},
              std::numeric_limits<std::uint64_t>::max(), "of all random numbers");
   add_number(command, "--threads", "N", a->threads, 1, 1024, "at most; changes no result");
-  command.add_option("--stats", a->stats, "writes counts, fluxes and times too")
+  command.add_option("--stats", a->stats, "writes counts, fluxes, times, memory too")
       ->option_text("FILE.json");
   command.add_flag("--quiet", a->quiet, "says nothing but errors");
   command.footer(

@@ -25,16 +25,12 @@ namespace {
 struct FormatReader {
   std::string_view name;
   std::vector<std::string_view> extensions;
-  SceneFile (*read)(const std::filesystem::path& path);
+  SceneFile (*read)(const std::filesystem::path& path);  ///< null for the native format
 };
 
 const std::vector<FormatReader>& format_readers() {
   static const std::vector<FormatReader> all{
-      {"isolux",
-       {".yaml", ".yml"},
-       [](const std::filesystem::path& path) {
-         return SceneFile{load_scene(path), {}};
-       }},
+      {"isolux", {".yaml", ".yml"}, nullptr},
       {"gltf", {".gltf", ".glb"}, read_gltf},
       {"mgf", {".mgf"}, read_mgf},
       {"mitsuba", {".xml"}, read_mitsuba},
@@ -78,12 +74,17 @@ std::vector<std::string> format_names() {
   return names;
 }
 
-SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format) {
-  SceneFile file = reader_for(path, format).read(path);
-  if (file.scene.source.empty()) {
-    // As it will be read from a saved solution: what can't be, had better be known now.
-    file.scene = read_scene(write_scene(file.scene), path.string() + " (converted)");
-  }
+SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format,
+                          const ReadingCallback& progress) {
+  const FormatReader& reader = reader_for(path, format);
+  report_progress(progress, {"reading", 0});
+  if (!reader.read) return {load_scene(path, progress), {}};
+  SceneFile file = reader.read(path);
+  report_progress(progress, {"converting", 0});
+  // As it will be read from a saved solution: what can't be, had better be known now.
+  const std::string native = write_scene(file.scene);
+  file.scene = {};
+  file.scene = read_scene(native, path.string() + " (converted)", progress);
   return file;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "isolux/scene/reading_progress.h"
 #include "isolux/scene/scene.h"
 
 namespace isolux {
@@ -22,7 +23,10 @@ std::vector<std::string> format_names();
 /// Reads a scene of any known format, chosen by the file's extension or, where it is not empty, by
 /// `format`, one of format_names(). Throws InputError as load_scene() does, with file, line and
 /// column in whichever file of several the fault lies, and where the extension is not known. The
-/// scene has its native text as `source`, whatever the format.
-SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format = {});
+/// scene has its native text as `source`, whatever the format. Throws
+/// ReadingStopped where `progress` says so; it is asked between the steps of reading other formats,
+/// and within those of the native one, which come after them.
+SceneFile load_scene_file(const std::filesystem::path& path, const std::string& format = {},
+                          const ReadingCallback& progress = {});
 
 }  // namespace isolux

@@ -2,30 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <unordered_map>
 
 #include "isolux/geometry/box_tree.h"
-#include "isolux/geometry/instance.h"
-#include "isolux/raycast/embree_device.h"
+#include "isolux/raycast/object_tree.h"
 #include "isolux/raycast/shaft.h"
 
 namespace isolux {
 namespace {
-
-/// An object as Embree sees it.
-struct Primitive {
-  const Object* object;
-  std::uint32_t index;
-  bool both_sides;
-};
-
-/// A shape whose tree several objects share, each through a map of its own.
-struct SharedShape {
-  const Shape* shape;
-  double room = 0;  ///< m in the shape's frame, that rays may be off once they are mapped
-  RTCScene rtc = nullptr;
-};
 
 /// Rays travel with their double-precision original; Embree's own single-precision ray only finds
 /// the boxes to look into.
@@ -42,14 +25,12 @@ struct Query : RTCIntersectContext {
   std::vector<SurfaceHit>* all = nullptr;
   // For occluded(): the rays of the packet, by their id.
   std::span<const Segment> segments;
-  // All objects, for what is met in a tree that several of them share.
-  std::span<const Primitive> objects;
+  const ObjectTree* tree = nullptr;
 };
 
 Ray ray_of(const Segment& s) { return {s.from, s.to - s.from}; }
 
 constexpr double kSegmentEnd = 1 - 1e-6;
-constexpr std::size_t kManyParts = 8;  // of a shape: worth a tree of its own
 
 SurfaceHit surface_hit(const Primitive& primitive, const Hit& hit) {
   return {hit.t, hit.point, hit.normal, {primitive.index, hit.face}, false};
@@ -80,38 +61,10 @@ bool covers(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   return rank(a) > rank(b);
 }
 
-void set_bounds(const Bounds& b, double room, RTCBounds& out) {
-  // Rays arrive rounded to single precision: the boxes have room for that.
-  const double slack = room + 4e-7 * (length(b.lower) + length(b.upper)) + 1e-30;
-  out.lower_x = static_cast<float>(b.lower.x - slack);
-  out.lower_y = static_cast<float>(b.lower.y - slack);
-  out.lower_z = static_cast<float>(b.lower.z - slack);
-  out.upper_x = static_cast<float>(b.upper.x + slack);
-  out.upper_y = static_cast<float>(b.upper.y + slack);
-  out.upper_z = static_cast<float>(b.upper.z + slack);
-}
-
-void bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const auto& primitive = *static_cast<const Primitive*>(args->geometryUserPtr);
-  set_bounds(primitive.object->shape->part_bounds(args->primID), 0, *args->bounds_o);
-}
-
-void shared_bounds_callback(const RTCBoundsFunctionArguments* args) {
-  const auto& shared = *static_cast<const SharedShape*>(args->geometryUserPtr);
-  set_bounds(shared.shape->part_bounds(args->primID), shared.room, *args->bounds_o);
-}
-
-/// The object that a callback is about: that of its geometry, or of the instance around it.
-const Primitive& met_object(const Query& query, const void* geometry) {
-  const unsigned instance = query.instID[0];
-  return instance == RTC_INVALID_GEOMETRY_ID ? *static_cast<const Primitive*>(geometry)
-                                             : query.objects[instance];
-}
-
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& query = *static_cast<Query*>(args->context);
-  const Primitive& primitive = met_object(query, args->geometryUserPtr);
+  const Primitive& primitive = query.tree->primitive(query, args->geometryUserPtr);
   thread_local Hits hits;
   hits.clear();
   primitive.object->shape->intersect_part(args->primID, *query.ray, hits);
@@ -142,7 +95,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
   auto& query = *static_cast<Query*>(args->context);
-  const Primitive& primitive = met_object(query, args->geometryUserPtr);
+  const Primitive& primitive = query.tree->primitive(query, args->geometryUserPtr);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (!args->valid[lane]) continue;
     const Segment& segment = query.segments[RTCRayN_id(args->ray, args->N, lane)];
@@ -156,121 +109,29 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 
 class RayCaster::Impl {
  public:
-  explicit Impl(const Scene& s) : scene(s) {
-    rtc = rtcNewScene(device.get());
-    rtcSetSceneFlags(rtc, RTC_SCENE_FLAG_ROBUST);
-    primitives.reserve(scene.objects.size());
-    for (const Object& object : scene.objects) add(object);
-    find_shared();
-    for (const Primitive& primitive : primitives) attach(primitive);
-    rtcCommitScene(rtc);
+  explicit Impl(const Scene& s) : scene(s), tree(s, intersect_callback, occluded_callback) {
     std::vector<Bounds> boxes;
-    for (const std::uint32_t i : solids) boxes.push_back(bounds[i]);
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+      const Shape& shape = *scene.objects[i].shape;
+      bounds.push_back(shape.bounds());
+      if (!shape.solid()) continue;
+      (shape.unbounded() ? endless : solids).push_back(i);
+      if (!shape.unbounded()) boxes.push_back(bounds.back());
+    }
     solid_tree.emplace(boxes);
-  }
-  ~Impl() {
-    rtcReleaseScene(rtc);
-    for (const auto& [shape, shared] : shared_shapes) rtcReleaseScene(shared.rtc);
-  }
-
-  void add(const Object& object) {
-    const auto index = static_cast<std::uint32_t>(primitives.size());
-    const bool solid = object.shape->solid();
-    primitives.push_back({&object, index, object.sides == Sides::both && !solid});
-    bounds.push_back(object.shape->bounds());
-    if (solid) (object.shape->unbounded() ? endless : solids).push_back(index);
-  }
-
-  /// Finds what stands in several places and has many parts, and makes its trees.
-  void find_shared() {
-    std::unordered_map<const Shape*, std::size_t> uses;
-    for (const Object& object : scene.objects) ++uses[original(object.shape).shape.get()];
-    double reach = length(scene.bounds().lower) + length(scene.bounds().upper);
-    for (const Camera& camera : scene.cameras) reach = std::max(reach, length(camera.eye));
-    for (const Object& object : scene.objects) {
-      const auto [shape, map] = original(object.shape);
-      if (uses[shape.get()] == 1 || shape->part_count() < kManyParts) continue;
-      if (const auto room = room_for(map.value_or(Affine{}), reach)) {
-        SharedShape& shared =
-            shared_shapes.try_emplace(shape.get(), SharedShape{shape.get()}).first->second;
-        shared.room = std::max(shared.room, *room);
-      }
-    }
-    for (auto& [shape, shared] : shared_shapes) {
-      shared.rtc = rtcNewScene(device.get());
-      rtcSetSceneFlags(shared.rtc, RTC_SCENE_FLAG_ROBUST);
-      attach_parts(shared.rtc, 0, *shape, shared_bounds_callback, &shared);
-      rtcCommitScene(shared.rtc);
-    }
-  }
-
-  /// How far off, in the frame of a shape, Embree's rays may be once they are mapped there, from
-  /// anywhere within `reach` of the origin; nothing where single precision is too coarse for that.
-  static std::optional<double> room_for(const Affine& map, double reach) {
-    constexpr double kMostDistorted = 1e4, kRounding = 4e-7;
-    const auto norm = [](const Affine& m) {
-      return std::sqrt(length_squared(m.linear[0]) + length_squared(m.linear[1]) +
-                       length_squared(m.linear[2]));
-    };
-    const double back = norm(*map.inverse()), distorted = norm(map) * back;
-    if (!(distorted < kMostDistorted)) return std::nullopt;
-    return kRounding * distorted * back * (reach + length(map.translation));
-  }
-
-  void attach(const Primitive& primitive) {
-    const auto [shape, map] = original(primitive.object->shape);
-    const auto shared = shared_shapes.find(shape.get());
-    const Affine placed = map.value_or(Affine{});
-    if (shared == shared_shapes.end() || !room_for(placed, 0)) {
-      return attach_parts(rtc, primitive.index, *primitive.object->shape, bounds_callback,
-                          const_cast<Primitive*>(&primitive));
-    }
-    std::array<float, 12> columns;
-    for (int i = 0; i < 3; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        columns[static_cast<std::size_t>(3 * k + i)] =
-            static_cast<float>(placed.linear[static_cast<std::size_t>(i)][k]);
-      }
-      columns[static_cast<std::size_t>(9 + i)] = static_cast<float>(placed.translation[i]);
-    }
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, shared->second.rtc);
-    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
-    attach(rtc, primitive.index, geometry);
-  }
-
-  void attach_parts(RTCScene to, unsigned id, const Shape& shape, RTCBoundsFunction box,
-                    void* data) {
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(shape.part_count()));
-    rtcSetGeometryUserData(geometry, data);
-    rtcSetGeometryBoundsFunction(geometry, box, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, intersect_callback);
-    rtcSetGeometryOccludedFunction(geometry, occluded_callback);
-    attach(to, id, geometry);
-  }
-
-  static void attach(RTCScene to, unsigned id, RTCGeometry geometry) {
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(to, geometry, id);
-    rtcReleaseGeometry(geometry);
   }
 
   /// Sends the query's ray through the tree.
   void trace(Query& query) const {
     rtcInitIntersectContext(&query);
-    query.objects = primitives;
+    query.tree = &tree;
     RTCRayHit rayhit = embree_ray(*query.ray, query.within.max);
-    rtcIntersect1(rtc, &query, &rayhit);
+    rtcIntersect1(tree.rtc(), &query, &rayhit);
   }
 
   const Scene& scene;
-  std::shared_ptr<RTCDeviceTy> device = embree_device();
-  RTCScene rtc = nullptr;
-  std::vector<Primitive> primitives;  // by object; Embree holds pointers to them
-  std::vector<Bounds> bounds;         // by object
-  // By original; Embree holds pointers to these too.
-  std::unordered_map<const Shape*, SharedShape> shared_shapes;
+  ObjectTree tree;
+  std::vector<Bounds> bounds;  // by object
   // Objects that are solid, and those that are so beyond their bounds too, as a room's walls are.
   std::vector<std::uint32_t> solids, endless;
   std::optional<BoxTree> solid_tree;  // of `solids`
@@ -291,7 +152,7 @@ std::optional<SurfaceHit> RayCaster::nearest(const Ray& ray, Interval within) co
   impl_->trace(query);
   if (!query.first) return std::nullopt;
   const SurfaceHit& hit = *query.first;
-  const Primitive& primitive = impl_->primitives[hit.surface.object];
+  const Primitive& primitive = impl_->tree.primitives()[hit.surface.object];
   if (primitive.both_sides && dot(hit.normal, ray.direction) > 0) return other_side(hit);
   return hit;
 }
@@ -337,7 +198,7 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
   constexpr std::size_t kLanes = 16;
   Query query;
   rtcInitIntersectContext(&query);
-  query.objects = impl_->primitives;
+  query.tree = &impl_->tree;
   query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (std::size_t first = 0; first < segments.size(); first += kLanes) {
     const std::size_t n = std::min(kLanes, segments.size() - first);
@@ -361,7 +222,7 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
       rays.id[lane] = static_cast<unsigned>(lane);
       rays.flags[lane] = 0;
     }
-    rtcOccluded16(valid.data(), impl_->rtc, &query, &rays);
+    rtcOccluded16(valid.data(), impl_->tree.rtc(), &query, &rays);
     for (std::size_t lane = 0; lane < n; ++lane) blocked[first + lane] = rays.tfar[lane] < 0;
   }
 }
@@ -369,7 +230,7 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
 Blockers RayCaster::blockers(const Bounds& from, const Bounds& to) const {
   constexpr std::size_t kMostObjects = 256, kMostParts = 4;
   Blockers found;
-  found.many_ = impl_->primitives.size() > kMostObjects;
+  found.many_ = impl_->bounds.size() > kMostObjects;
   if (found.many_) return found;
   // Room for the hair by which points are lifted off surfaces. It lifts them off the walls of a
   // room into the room, so that these need none.

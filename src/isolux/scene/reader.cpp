@@ -16,7 +16,7 @@
 namespace isolux {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{64} << 20;  ///< bytes
+constexpr std::size_t kLargestFile = std::size_t{256} << 20;  ///< bytes
 
 using MaterialIndex = std::map<std::string, std::uint32_t, std::less<>>;
 
@@ -69,7 +69,7 @@ Object read_object(const Value& value, std::size_t number, const MaterialIndex& 
   return object;
 }
 
-Scene read_document(const YamlDocument& document) {
+Scene read_document(const YamlDocument& document, const ReadingCallback& progress) {
   ReadingContext context{document.file};
   const Value root(context, *document.root, "scene");
   check_version(root);
@@ -91,7 +91,13 @@ Scene read_document(const YamlDocument& document) {
     for (const auto& [name, shape] : named->entries()) shapes.add(name, shape);
   }
   const Value objects = fields.require("objects");
-  for (const Value& object : objects.items()) {
+  constexpr std::size_t kReportEvery = 256;
+  const std::vector<Value> items = objects.items();
+  for (const Value& object : items) {
+    const std::size_t count = scene.objects.size();
+    if (count % kReportEvery == 0) {
+      report_progress(progress, {"making objects", double(count) / double(items.size())});
+    }
     scene.objects.push_back(
         read_object(object.labelled("object"), scene.objects.size() + 1, materials, shapes));
   }
@@ -111,9 +117,10 @@ Scene read_document(const YamlDocument& document) {
 
 }  // namespace
 
-Scene read_scene(const std::string& text, const std::string& file) {
+Scene read_scene(const std::string& text, const std::string& file,
+                 const ReadingCallback& progress) {
   try {
-    Scene scene = read_document(parse_yaml(text, file));
+    Scene scene = read_document(parse_yaml(text, file, progress), progress);
     scene.source = text;
     return scene;
   } catch (const std::bad_alloc&) {
@@ -121,8 +128,8 @@ Scene read_scene(const std::string& text, const std::string& file) {
   }
 }
 
-Scene load_scene(const std::filesystem::path& path) {
-  return read_scene(read_file(path, kLargestFile), path.string());
+Scene load_scene(const std::filesystem::path& path, const ReadingCallback& progress) {
+  return read_scene(read_file(path, kLargestFile), path.string(), progress);
 }
 
 }  // namespace isolux

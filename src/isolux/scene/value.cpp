@@ -118,7 +118,7 @@ std::string Value::text() const {
     fail(fmt::format("{} must be a text, not {}", in_quotes(label_),
                      node_->kind == YamlNode::Kind::scalar ? "an empty one" : described()));
   }
-  return node_->text;
+  return std::string(node_->text);
 }
 
 std::size_t Value::choice(const std::vector<std::string_view>& words) const {
