@@ -215,7 +215,8 @@ class Outputs(ProgramTest):
 
 class Work(ProgramTest):
     def test_from_scene_to_picture_and_figures(self):
-        self.assertIn("m²", self.succeed("check", ROOM).stdout)
+        self.assertRegex(self.succeed("check", ROOM).stdout,
+                         r"\nmemory: [\d.e-]+ MB for the scene, [\d.]+ MB at most until now\n")
         solution = self.folder / "room.glb"
         result = self.succeed("solve", ROOM, "-o", solution, "--stats", "stats.json", *SHORT)
         self.assertRegex(result.stderr, r"^isolux: .*room\.glb: 4 iterations, .*\n"
@@ -224,6 +225,8 @@ class Work(ProgramTest):
         self.assertEqual(statistics["iterations"], 4)
         self.assertGreater(statistics["triangles"], 0)
         self.assertGreater(statistics["cpu_seconds"], 0)
+        self.assertGreater(statistics["scene_bytes"], 1000)
+        self.assertGreater(statistics["peak_bytes"], statistics["scene_bytes"])
         self.assertLess(statistics["unshot_flux"], statistics["emitted_flux"])
 
         for arguments in [[], ["--mesh"]]:
@@ -340,6 +343,32 @@ class Terminal(ProgramTest):
         os.close(terminal)
         self.assertEqual(solver.wait(timeout=60), 3, shown)
         return shown.decode()
+
+    def test_reading_shows_how_far_it_is_and_can_be_interrupted(self):
+        objects = "".join(f"  - shape: {{sphere: {{center: [{i}, 0, 0], radius: 0.4}}}}\n"
+                          "    material: grey\n" for i in range(700_000))
+        scene = self.write("large.yaml", "isolux: 1\nmaterials: {grey: {reflectance: 0.5}}\n"
+                           f"objects:\n{objects}")
+        terminal, inside = pty.openpty()
+        reader = subprocess.Popen([PROGRAM, "convert", scene, "-o", "b.yaml"], cwd=self.folder,
+                                  stderr=inside)
+        os.close(inside)
+        self.addCleanup(reader.kill)
+        shown = b""
+        sent = False
+        while True:
+            try:
+                shown += os.read(terminal, 65536)
+            except OSError:  # the other end is closed
+                break
+            if not sent and b"\r" in shown:
+                reader.send_signal(signal.SIGINT)
+                sent = True
+        os.close(terminal)
+        self.assertEqual(reader.wait(timeout=60), 3, shown)
+        self.assertRegex(shown.decode(), r"(parsing|making objects) \d+ %")
+        self.assertIn("interrupted while reading the scene; nothing is written", shown.decode())
+        self.assertEqual(list(self.listing()), ["large.yaml"])
 
     def test_interrupted_solves_save_what_they_have(self):
         for number in [signal.SIGINT, signal.SIGTERM]:

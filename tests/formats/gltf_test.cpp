@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "formats/refusal.h"
+#include "isolux/geometry/instance.h"
 
 namespace isolux {
 namespace {
@@ -121,6 +122,23 @@ TEST(Gltf, NodesPlaceMeshes) {
   scene.objects[1].shape->intersect({{6.5, 0.25, 1}, {0, 0, -1}}, hits);
   ASSERT_EQ(hits.size(), 1u);
   EXPECT_NEAR(hits[0].normal.z, 1, 1e-12);
+}
+
+// Also after the scene went through native text.
+TEST(Gltf, MeshesOfManyNodesAreOneInMemory) {
+  std::string nodes, numbers;
+  for (int i = 0; i < 1000; ++i) {
+    nodes += fmt::format("{}{{\"mesh\": 0, \"translation\": [{}, 0, 0]}}", i ? "," : "", i);
+    numbers += fmt::format("{}{}", i ? "," : "", i);
+  }
+  const Scene scene = scene_in("a.gltf", square_file(kGray + R"("scenes": [{"nodes": [)" + numbers +
+                                                     R"(]}], "nodes": [)" + nodes + "]"))
+                          .scene;
+  ASSERT_EQ(scene.objects.size(), 1000u);
+  for (const Object& object : scene.objects) {
+    EXPECT_EQ(original(object.shape).shape, original(scene.objects[0].shape).shape);
+  }
+  EXPECT_EQ(scene.objects[999].shape->bounds().lower.x, 999);
 }
 
 // 10 × 3 cd/m² (red) in front of π: the exitance of a diffuse surface; times 1 m².

@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "formats/refusal.h"
+#include "isolux/geometry/instance.h"
 #include "support/scenes.h"
 
 namespace isolux {
@@ -94,6 +95,18 @@ TEST(Pbrt, ObjectsArePlacedByInstances) {
   ASSERT_EQ(scene.objects.size(), 4u);
   EXPECT_LT(distance(scene.objects[3].shape->bounds().center(), {2, 0, 0}), 1e-12);
   EXPECT_NEAR(surface_area(*scene.objects[3].shape).value(), 16 * pi, 1e-9);
+}
+
+TEST(Pbrt, InstancesOfAMeshAreOneInMemory) {
+  const Scene scene =
+      scene_in(
+          "a.pbrt",
+          "WorldBegin ObjectBegin \"square\"\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 "
+          "1 1 0 0 1 0] \"integer indices\" [0 1 2 0 2 3]\nObjectEnd\n"
+          "ObjectInstance \"square\"\nRotate 30 1 2 3\nObjectInstance \"square\"\n")
+          .scene;
+  ASSERT_EQ(scene.objects.size(), 2u);
+  EXPECT_EQ(original(scene.objects[0].shape).shape, original(scene.objects[1].shape).shape);
 }
 
 // Names are relative to the folder of the main file, wherever they stand.

@@ -28,5 +28,20 @@ TEST(SceneFile, FormatsHaveNames) {
   EXPECT_THAT(format_names(), testing::IsSupersetOf({"isolux", "mgf", "radiance", "rayshade"}));
 }
 
+TEST(SceneFile, ReadingTellsHowFarItIsAndCanBeStopped) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::vector<std::string> steps;
+  load_scene_file(path, "", [&](const ReadingProgress& progress) {
+    steps.push_back(progress.step);
+    return true;
+  });
+  EXPECT_EQ(steps, (std::vector<std::string>{"reading", "converting", "making objects"}));
+  for (const std::string& last : steps) {
+    const auto stop = [&](const ReadingProgress& progress) { return progress.step != last; };
+    EXPECT_THROW(load_scene_file(path, "", stop), ReadingStopped) << last;
+  }
+}
+
 }  // namespace
 }  // namespace isolux

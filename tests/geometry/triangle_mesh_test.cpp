@@ -126,5 +126,37 @@ TEST(TriangleMeshTest, RefusesWhatIsNoMesh) {
   EXPECT_THROW(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, NAN, 0}}, {{0, 1, 2}}), InputError);
 }
 
+// A ball of many flat triangles, far from the origin.
+TEST(TriangleMesh, ItsTreeFindsWhatItsPartsFind) {
+  const Vec3 center{1000, 2000, -500};
+  const TriangleMesh mesh = mesh_of(*Sphere(center, 1).triangulate(0.1));
+  ASSERT_GT(mesh.part_count(), 1000u);
+  Random random(5);
+  const auto point = [&] {
+    return center +
+           Vec3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5} * 2.4;
+  };
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 from = point();
+    Vec3 way = point() - from;
+    if (i % 4 == 0) way.x = 0;
+    if (i % 8 == 0) way.y = 0;
+    const Ray ray{from, way};
+    Hits all, parts;
+    mesh.intersect(ray, all);
+    bool occluded = false;
+    for (std::size_t part = 0; part < mesh.part_count(); ++part) {
+      mesh.intersect_part(part, ray, parts);
+      occluded = occluded || mesh.part_occludes(part, ray, 0, 1);
+    }
+    ASSERT_EQ(all.size(), parts.size());
+    EXPECT_EQ(mesh.occludes(ray, 0, 1), occluded);
+    const double r = distance(from, center);
+    if (std::abs(r - 1) > 0.02) {
+      EXPECT_EQ(mesh.contains(from), r < 1);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace isolux

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "isolux/core/random.h"
+#include "isolux/geometry/instance.h"
+#include "isolux/geometry/triangle_mesh.h"
 #include "support/scenes.h"
 
 namespace isolux {
@@ -208,6 +210,59 @@ TEST(RayCaster, TheBlockersOfTwoBoxesStopTheSameSegmentsAsAll) {
   }
   EXPECT_GT(none, 300);
   EXPECT_GT(blocked_count, 1000);
+}
+
+/// An open sheet of n² cells over the unit square.
+std::shared_ptr<const Shape> sheet(std::uint32_t n) {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t k = 0; k <= n; ++k) {
+      const double x = double(i) / n, y = double(k) / n;
+      points.push_back({x, y, x * (1 - x) + 0.3 * std::sin(9 * y)});
+      const std::uint32_t a = i * (n + 1) + k;
+      if (i == n || k == n) continue;
+      triangles.push_back({a, a + n + 1, a + n + 2});
+      triangles.push_back({a, a + n + 2, a + 1});
+    }
+  }
+  return std::make_shared<TriangleMesh>(points, triangles);
+}
+
+// Moved far, turned, stretched, mirrored and tiny: what one tree for all of them finds is what each
+// finds by itself.
+TEST(RayCaster, SharedShapesAreMetWhereTheyStand) {
+  const auto mesh = sheet(12);
+  Scene scene;
+  scene.materials = {{"m", gray(0.5)}};
+  const std::vector<Affine> maps{
+      {},
+      Affine::translate({500, -300, 20}),
+      Affine::translate({2, 0, 0}) * Affine::rotate({1, 2, 3}, 0.7) * Affine::scale({3, 0.5, -2}),
+      Affine::translate({0, 0, 1}) * Affine::scale({1e-3, 1e-3, 1e-3}),
+      Affine::translate({0, 5, 0}) * Affine::scale({1e3, 1e-3, 1}),  // too much for one tree
+  };
+  for (const Affine& map : maps) {
+    scene.objects.push_back({"sheet", std::make_shared<Instance>(mesh, map), 0, Sides::front, {}});
+  }
+  const RayCaster rays(scene);
+  Random random(11);
+  std::vector<SurfaceHit> hits;
+  std::size_t met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Affine& map = maps[static_cast<std::size_t>(i) % maps.size()];
+    const Vec3 to = map.point(random_point(random));
+    const Vec3 from = map.point(random_point(random) * 3 - Vec3{1, 1, 1});
+    const Ray ray{from, to - from};
+    const std::vector<double> expected = brute_force(scene, ray, {});
+    rays.all_hits(ray, {}, hits);
+    ASSERT_EQ(hits.size(), expected.size()) << "ray " << i;
+    for (std::size_t k = 0; k < hits.size(); ++k) EXPECT_EQ(hits[k].t, expected[k]);
+    met += hits.size();
+    const bool blocked = !brute_force(scene, ray, {0, 1 - 1e-6}).empty();
+    EXPECT_EQ(rays.occluded(Segment{from, to}), blocked) << "ray " << i;
+  }
+  EXPECT_GT(met, 5000u);
 }
 
 }  // namespace

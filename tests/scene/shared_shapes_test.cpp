@@ -135,5 +135,15 @@ TEST(SharedShapes, CantGrowBeyondMeasure) {
               HasSubstr("shapes nested more than 100 deep"));
 }
 
+TEST(SharedShapes, AreNoDeeperForTheirNames) {
+  ShapePtr deep = cone_of(12), half;
+  for (int i = 0; i < 99; ++i) {
+    deep = std::make_shared<Reversed>(deep);
+    if (i == 50) half = deep;
+  }
+  const std::string text = write_scene(scene_with({deep, moved(deep, 1), half}));
+  EXPECT_EQ(write_scene(read_scene(text, "a.yaml")), text);
+}
+
 }  // namespace
 }  // namespace isolux

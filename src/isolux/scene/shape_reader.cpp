@@ -53,7 +53,7 @@ void ShapeNesting::enter(const Value& place, int more, std::size_t shapes) const
                     "takes any number, so list them side by side",
                     kDeepestNesting));
   }
-  if (more > 0 && count > kMostWithinOne) {
+  if (shapes > 1 && count > kMostWithinOne) {
     place.fail(fmt::format("more than {} shapes within one: make several objects", kMostWithinOne));
   }
 }
@@ -66,7 +66,8 @@ ShapePtr ShapeNesting::named(const Value& name) const {
     name.fail(fmt::format("no shape above is named {}: {}", in_quotes(name.text()),
                           suggestion(name.text(), names)));
   }
-  enter(name, found->second.depth, found->second.count);
+  // As deep as if it were written out here.
+  enter(name, found->second.depth - 1, found->second.count);
   return found->second.shape;
 }
 
