@@ -6,7 +6,7 @@
 
 namespace isolux {
 
-/// Parses the plain part of YAML, some twenty times faster than a parser of all of it: lists and
+/// Parses the plain part of YAML, much faster than a parser of all of it: lists and
 /// maps by indentation or within one line, words and numbers of unsuspicious characters, quotes
 /// without escapes, comments. Returns false where there is anything else, faults included, with
 /// events given up to there that mean nothing; true where the events are those that yaml-cpp would
