@@ -198,7 +198,8 @@ struct ShapeWriter::Node {
     text += ':';
     const bool may_fit = size() <= kMostOnALine;
     const std::string content = may_fit ? flow_content() : "";
-    if (may_fit && indent + shape.kind.size() + 2 + content.size() <= kLineWidth) {
+    const bool fits = may_fit && indent + shape.kind.size() + 2 + content.size() <= kLineWidth;
+    if (fits || !instance.empty()) {
       text += ' ' + content;
     } else {
       for (const auto& field : shape.fields) append_field(text, field, indent + 2);
