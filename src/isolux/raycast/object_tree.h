@@ -28,6 +28,8 @@ class ObjectTree {
   ObjectTree& operator=(const ObjectTree&) = delete;
 
   RTCScene rtc() const { return rtc_; }
+  /// Whether some shape has a tree of its own.
+  bool has_shared() const { return !shared_.empty(); }
   /// The object that a callback is about, by what Embree hands to it.
   const Primitive& primitive(const RTCIntersectContext& context, const void* geometry_data) const;
   const std::vector<Primitive>& primitives() const { return primitives_; }

@@ -199,7 +199,8 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
   Query query;
   rtcInitIntersectContext(&query);
   query.tree = &impl_->tree;
-  query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  // Embree 3.13 may not come back with coherent packets from trees within trees.
+  if (!impl_->tree.has_shared()) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (std::size_t first = 0; first < segments.size(); first += kLanes) {
     const std::size_t n = std::min(kLanes, segments.size() - first);
     query.segments = segments.subspan(first, n);
