@@ -212,6 +212,33 @@ TEST(CoverTest, BluntEdgesAskForFinerPointsWithinReason) {
   EXPECT_LT(mesh.vertices().size(), 5000u) << "a tenth of a metre apart, finer along the folds";
 }
 
+TEST(CoverTest, FacetedConesHaveAnEndOfPointsAtTheirTips) {
+  constexpr int kFacets = 24;
+  std::string points, triangles;
+  for (int k = 0; k < kFacets; ++k) {
+    const double angle = 2 * kPi * k / kFacets;
+    points += fmt::format("[{}, {}, 0], ", 0.2 * std::cos(angle), 0.2 * std::sin(angle));
+    const int next = (k + 1) % kFacets;
+    triangles +=
+        fmt::format("[{}, {}, {}], [{}, {}, {}], ", k, next, kFacets, next, k, kFacets + 1);
+  }
+  std::string text =
+      "materials: {m: {reflectance: 0.5}}\nobjects:\n  - {shape: {box: {lower: [-2, -2, 0], "
+      "upper: [2, 2, 2.5], inward: true}}, material: m}\n";
+  for (int k = 0; k < 9; ++k) {
+    text += fmt::format(
+        "  - {{shape: {{mesh: {{points: [{}[0, 0, 0.7], [0, 0, 0]], triangles: [{}]}}}}, "
+        "material: m, transform: [{{translate: [{}, {}, 0.1]}}]}}\n",
+        points, triangles, 1.1 * (k % 3 - 1), 1.1 * (k / 3 - 1));
+  }
+  const Scene scene = scene_of(text);
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.364);
+  EXPECT_LT(mesh.vertices().size(), 20'000u);
+  const Coverage coverage = coverage_of(mesh, rays, 4000, 1);
+  EXPECT_GT(coverage.covered, 0.99 * coverage.area);
+}
+
 TEST(CoverTest, LightsEmitAndOthersDoNot) {
   const Scene scene = paper_room();
   const RayCaster rays(scene);

@@ -13,7 +13,7 @@ constexpr double kStripWidths = 2;
 constexpr double kLeastStrip = 1.0 / 32;
 // No curvature makes points finer than this part of the largest size on their object, and no edge
 // between flat parts than that one.
-constexpr double kLeastSize = 1.0 / 64;
+constexpr double kLeastSize = 1.0 / 64, kLeastAcross = 1.0 / 1024;  // of all; across rulings
 constexpr double kLeastAtFolds = 1.0 / 8;
 // Along a ruling, points are no further apart than this part of the spacing.
 constexpr double kLongest = 0.25;
@@ -133,8 +133,9 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
   const auto limited = [&](double bend, double least) {
     return std::clamp(most_turn / std::max(bend, 1e-30), std::min(limit, least), limit);
   };
-  around.size = std::min(limited(curvature, around.stretch > 1 ? 0 : kLeastSize * largest),
-                         limited(fold, kLeastAtFolds * largest));
+  around.size =
+      std::min(limited(curvature, (around.stretch > 1 ? kLeastAcross : kLeastSize) * largest),
+               limited(fold, kLeastAtFolds * largest));
   for (int k = 0; k < kDirections / 2; ++k) {
     const auto shortest = [&](int i) {
       return ends[i] <= ends[(i + 1) % kDirections] &&
