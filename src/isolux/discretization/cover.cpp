@@ -61,11 +61,11 @@ std::vector<ZonePoint> points_on_all_surfaces(const SurfaceWalk& walk, std::uint
   return all;
 }
 
-/// Makes triangles of a cover's points.
+/// Makes triangles of a cover's points, in an empty mesh.
 class Weaver {
  public:
   Weaver(Triangulation& mesh, const CoverPoints& points, const SurfaceWalk& walk)
-      : mesh_(mesh), points_(points), walk_(walk), first_(mesh.vertices().size()) {
+      : mesh_(mesh), points_(points), walk_(walk) {
     for (const CoverPoint& point : points.points()) {
       Vertex vertex;
       static_cast<SurfacePoint&>(vertex) = point;
@@ -91,9 +91,9 @@ class Weaver {
   }
 
  private:
-  VertexId id(std::uint32_t point) const { return static_cast<VertexId>(first_ + point); }
-  bool stretched(VertexId v) const { return v >= first_ && point(v).stretch > 1; }
-  const CoverPoint& point(VertexId v) const { return points_.points()[v - first_]; }
+  static VertexId id(std::uint32_t point) { return static_cast<VertexId>(point); }
+  bool stretched(VertexId v) const { return point(v).stretch > 1; }
+  const CoverPoint& point(VertexId v) const { return points_.points()[v]; }
   const Vec3& at(VertexId v) const { return mesh_.vertex(v).position; }
 
   bool try_triangle(VertexId a, VertexId b, VertexId c, bool agreed);
@@ -105,7 +105,6 @@ class Weaver {
   Triangulation& mesh_;
   const CoverPoints& points_;
   const SurfaceWalk& walk_;
-  std::size_t first_;
 };
 
 /// Whether the sector from va to vb overlaps no triangle around v, in v's tangent plane.
@@ -200,13 +199,26 @@ void Weaver::mend() {
     }
   };
   for (TriangleId t = 0; t < mesh_.triangles().size(); ++t) {
-    if (mesh_.triangle(t).vertices[0] >= first_) note(mesh_.triangle(t));
+    note(mesh_.triangle(t));
   }
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto [a, b] = open[i];
     if (mesh_.triangle_at(b, a) || !mesh_.triangle_at(a, b)) continue;
     const auto born = static_cast<TriangleId>(mesh_.triangles().size());
     if (mend_at(a, b)) note(mesh_.triangle(born));
+  }
+}
+
+/// Puts the triangles of `woven` and their vertices into `mesh`; vertices without triangles, which
+/// would only cost light to be gathered for, are left out.
+void take_over(const Triangulation& woven, Triangulation& mesh) {
+  std::vector<VertexId> ids(woven.vertices().size());
+  for (VertexId v = 0; v < ids.size(); ++v) {
+    if (!woven.vertex(v).triangles.empty()) ids[v] = mesh.restore_vertex(woven.vertex(v));
+  }
+  for (const Triangle& t : woven.triangles()) {
+    const auto& v = t.vertices;
+    if (t.alive) mesh.restore_triangle({ids[v[0]], ids[v[1]], ids[v[2]]}, t.emission, {}, false);
   }
 }
 
@@ -223,7 +235,9 @@ void cover(Triangulation& mesh, const RayCaster& rays, const CoverOptions& optio
     points.grow_from(point);
   }
   points.settle();
-  Weaver(mesh, points, walk).weave();
+  Triangulation woven(mesh.rules(), rays.scene().bounds());
+  Weaver(woven, points, walk).weave();
+  take_over(woven, mesh);
 }
 
 }  // namespace isolux
