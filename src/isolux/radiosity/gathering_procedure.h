@@ -23,8 +23,8 @@ namespace isolux {
 //   τ                the tolerance
 
 /// One run of gather_radiosity(): the procedure in gathering.cpp, the refinement for E_d in
-/// gathering_direct.cpp, links and transfer of E_i in gathering_transfer.cpp, and its refinement in
-/// gathering_indirect.cpp.
+/// gathering_direct.cpp, links for E_i in gathering_rays.cpp, its transfer in
+/// gathering_transfer.cpp, and its refinement in gathering_indirect.cpp.
 class Gathering {
  public:
   Gathering(GatheringState& state, const RayCaster& rays, const Options& options,
