@@ -70,7 +70,7 @@ std::vector<double> Gathering::areas_of_influence() {
 /// surfaces. For so many rays as it takes, one more anywhere takes as much off Σ A σ² (Neyman
 /// 1934); but nowhere is σ more than so many tolerances of E.
 std::vector<int> Gathering::wanted_grids() {
-  constexpr double kMostNoise = 3;
+  constexpr double kMostNoise = 2;
   const std::vector<double> areas = areas_of_influence(), doubt = doubts();
   const auto worth = [&](VertexId v) { return std::pow(areas[v] * doubt[v], 1 / (1 + kFall)); };
   double sum = 0;
