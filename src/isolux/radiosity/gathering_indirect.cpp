@@ -73,6 +73,18 @@ double Gathering::rule_bend(VertexId v) const {
   return longest > 0 ? state_.bend_scale * bend * std::min(kMost, 4 * spread / longest) : 0;
 }
 
+/// What interpolating E_i at a vertex may cost by what its neighbours in the mesh gathered, who may
+/// stand nearer than those that it lies among.
+double Gathering::bend_beside(VertexId v) const {
+  double most = 0;
+  for (const TriangleId t : mesh_.vertex(v).triangles) {
+    for (const VertexId w : mesh_.triangle(t).vertices) {
+      if (state_.light[w].gathers) most = std::max(most, difference(v, w));
+    }
+  }
+  return state_.bend_scale * kUsualBend * most;
+}
+
 /// By how much interpolating E_i at a vertex among others goes against a glimpse of it.
 double Gathering::surprise(VertexId v) const {
   constexpr double kSure = 2;           // σ of a glimpse

@@ -105,6 +105,7 @@ class Gathering {
   double usual_bend(VertexId v, VertexId w) const;
   double area_around(VertexId v) const;
   double rule_bend(VertexId v) const;
+  double bend_beside(VertexId v) const;
   double surprise(VertexId v) const;
   double most_bend() const;
   bool stands_out(const Edge& edge, double e) const;

@@ -67,7 +67,7 @@ void Gathering::foresee_bends(VertexId first) {
     for (std::size_t v = first + begin; v < first + end; ++v) {
       VertexLight& light = state_.light[v];
       if (light.gathers) continue;
-      light.own_bend = rule_bend(VertexId(v));
+      light.own_bend = std::max(rule_bend(VertexId(v)), bend_beside(VertexId(v)));
       if (light.row.empty()) continue;
       const Gathered rough = gather(light.row);
       light.glimpse = luminance(rough.irradiance);
