@@ -1,4 +1,5 @@
 #include "isolux/radiosity/direct_light.h"
+#include "isolux/radiosity/separate_lights.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -17,6 +17,8 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "isolux/core/error.h"
+
 namespace isolux {
 
 double linear_of_srgb(double value) {
@@ -28,6 +30,26 @@ std::optional<Rgb> Textures::mean_color(const std::string& key,
   const auto [place, is_new] = known_.try_emplace(key);
   if (is_new) place->second = mean_color(bytes());
   return place->second;
+}
+
+std::optional<Rgb> Textures::mean_color_of(const std::string& file, Includes& includes,
+                                           const std::string& folder) {
+  return mean_color(folder + '\n' + file, [&]() -> std::string {
+    try {
+      std::string bytes = includes.open(file).text;
+      includes.close();
+      return bytes;
+    } catch (const InputError&) {
+      return {};
+    }
+  });
+}
+
+Rgb Textures::mean_color_of(const std::string& file, Includes& includes, Notes& notes) {
+  const auto found = mean_color_of(file, includes);
+  notes.add(found ? "textures: their mean color alone is kept"
+                  : "textures that can't be read as PNG or JPEG: gray of 0.5");
+  return found.value_or(gray(0.5));
 }
 
 std::optional<Rgb> Textures::mean_color(const std::string& image) {

@@ -7,6 +7,8 @@
 #include <unordered_map>
 
 #include "isolux/core/color.h"
+#include "isolux/formats/include_path.h"
+#include "isolux/formats/notes.h"
 
 namespace isolux {
 
@@ -20,6 +22,12 @@ class Textures {
   /// file, or a picture of more than 64 million texels, or all textures have more than 256 million.
   /// `key` stands for the file: `bytes` is asked once a key.
   std::optional<Rgb> mean_color(const std::string& key, const std::function<std::string()>& bytes);
+  /// That of a file of the scene; nothing where it can't be opened either. `folder` tells apart
+  /// files of one name that are included from different folders.
+  std::optional<Rgb> mean_color_of(const std::string& file, Includes& includes,
+                                   const std::string& folder = {});
+  /// Gray of 0.5 where there is none. Notes what was done.
+  Rgb mean_color_of(const std::string& file, Includes& includes, Notes& notes);
 
  private:
   std::optional<Rgb> mean_color(const std::string& image);

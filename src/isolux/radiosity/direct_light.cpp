@@ -6,6 +6,7 @@
 #include "isolux/core/parallel.h"
 #include "isolux/radiosity/form_factor.h"
 #include "isolux/radiosity/light_lattice.h"
+#include "isolux/radiosity/separate_lights.h"
 #include "isolux/radiosity/source_light.h"
 #include "isolux/radiosity/spatial_order.h"
 
@@ -21,25 +22,6 @@ constexpr int kBowHalvings = 5;
 constexpr double kBowReach = 0.125;
 /// How many neighbours share shafts and doubts.
 constexpr std::size_t kGroup = 32;
-
-/// What an object adds to the balance of light.
-struct Share {
-  double flux = 0;       ///< emitted, lm
-  double absorbing = 0;  ///< (1 − ρ) × area, m²
-};
-
-Share share_of(const Scene& scene, Index index) {
-  const Object& object = scene.objects[index];
-  std::optional<double> area = surface_area(*object.shape);
-  if (!area) {
-    const Bounds box = object.shape->bounds();
-    const Vec3 d = box.upper - box.lower;
-    area = 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
-  }
-  const int sides = object.sides == Sides::both && !object.shape->solid() ? 2 : 1;
-  return {luminance(object.exitance) * *area,
-          (1 - luminance(scene.material_of(index).reflectance)) * sides * *area};
-}
 
 /// Whether some of the piece stands above the receiver's horizon, and the receiver before it.
 bool may_see(const Piece& piece, const Receiver& receiver, double epsilon) {
@@ -355,26 +337,6 @@ class Group {
 };
 
 }  // namespace
-
-std::vector<std::uint8_t> separate_lights(const Scene& scene) {
-  constexpr double kBright = 1.5;
-  std::vector<Share> shares;
-  Share all;
-  for (Index i = 0; i < scene.objects.size(); ++i) {
-    shares.push_back(share_of(scene, i));
-    all.flux += shares[i].flux;
-    all.absorbing += shares[i].absorbing;
-  }
-  std::vector<std::uint8_t> separate(scene.objects.size(), 0);
-  for (Index i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    if (!object.emits()) continue;
-    const Share others{all.flux - shares[i].flux, all.absorbing - shares[i].absorbing};
-    separate[i] = luminance(object.exitance) * others.absorbing >= kBright * others.flux &&
-                  object.shape->triangulate(object.shape->bounds().diagonal());
-  }
-  return separate;
-}
 
 DirectLight::DirectLight(const RayCaster& rays)
     : rays_(rays), separate_(separate_lights(rays.scene())) {

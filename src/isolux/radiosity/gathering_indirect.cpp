@@ -200,7 +200,7 @@ void Gathering::gather_at_doubtful(std::span<const VertexId> doubtful) {
     by_rule.push_back({v, light.indirect, square(light.indirect_deviation), area_around(v)});
     foreseen += square(rule) * by_rule.back().area;
   }
-  trace_as_wanted(doubtful, kTrialGrid);
+  trace_as_wanted(doubtful, wanted_grids(), kTrialGrid);
   double noise = 0;
   for (const auto& [v, before, variance, area] : by_rule) {
     const VertexLight& light = state_.light[v];

@@ -77,7 +77,7 @@ class Gathering {
   std::vector<double> doubts();
   std::vector<double> areas_of_influence();
   std::vector<int> wanted_grids();
-  void trace_as_wanted(std::span<const VertexId> vertices, int finest);
+  void trace_as_wanted(std::span<const VertexId> vertices, std::span<const int> wanted, int finest);
   std::vector<Landing> links(const Receiver& receiver, int grid, std::uint64_t id) const;
   void give_links(VertexId v, std::vector<Landing> row);
   void glimpse();

@@ -112,15 +112,15 @@ void Gathering::gather_all() {
     if (gatherers.empty()) break;
     std::sort(gatherers.begin(), gatherers.end());
     gatherers.erase(std::unique(gatherers.begin(), gatherers.end()), gatherers.end());
-    trace_as_wanted(gatherers, HemisphereGather::kFinestGrid);
+    trace_as_wanted(gatherers, wanted, HemisphereGather::kFinestGrid);
     gatherers.clear();
   }
   glimpse();
 }
 
-/// As wanted, but not coarser than they have.
-void Gathering::trace_as_wanted(std::span<const VertexId> vertices, int finest) {
-  const std::vector<int> wanted = wanted_grids();
+/// Rays as `wanted`, by vertex, in cells a side; not fewer than they have.
+void Gathering::trace_as_wanted(std::span<const VertexId> vertices, std::span<const int> wanted,
+                                int finest) {
   std::vector<int> grids;
   for (const VertexId v : vertices) {
     const VertexLight& light = state_.light[v];

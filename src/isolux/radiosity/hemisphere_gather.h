@@ -45,7 +45,7 @@ class HemisphereGather {
   static constexpr int kFinestGrid = 256;
 
   /// `separate`, by object: 1 where its emission is left out here because it is gathered as a
-  /// light (separate_lights() of direct_light.h). `rays` and `mesh` must outlive this; triangles
+  /// light (separate_lights()). `rays` and `mesh` must outlive this; triangles
   /// that the mesh gets later are not seen, but vertices stay valid.
   HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
                    std::span<const std::uint8_t> separate);

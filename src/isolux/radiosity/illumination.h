@@ -22,7 +22,8 @@ struct Illumination {
 
 /// What the receivers gather from a mesh that gather_radiosity() has lit, `solved` being what it
 /// returned: straight from the lights, and by reflection with 2¼ times as many rays as its vertices
-/// used. Neighbours in the list should be neighbours in space.
+/// used on average, and more where the noise exceeds the error of the solution. Neighbours in the
+/// list should be neighbours in space.
 std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& rays,
                                     const Statistics& solved, std::span<const Receiver> receivers,
                                     std::uint64_t seed);

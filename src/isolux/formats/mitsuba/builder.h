@@ -55,7 +55,6 @@ class Builder {
   Rgb color(const Element& object, std::string_view name, double otherwise);
   Rgb mean(const Element& texture);
   Rgb new_mean(const Element& texture);
-  Rgb bitmap(const Element& texture);
 
   Includes includes_;
   Document document_;

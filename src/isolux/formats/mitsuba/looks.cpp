@@ -63,29 +63,16 @@ Rgb Builder::mean(const Element& texture) {
 
 Rgb Builder::new_mean(const Element& texture) {
   const std::string& type = texture.need("type");
-  if (type == "bitmap") return bitmap(texture);
+  if (type == "bitmap") {
+    const std::string file(text(texture, "filename"));
+    return images_.mean_color_of(file, includes_, assembly_.notes());
+  }
   if (type == "checkerboard") {
     assembly_.notes().add("textures: their mean color alone is kept");
     return (color(texture, "color0", 0.4) + color(texture, "color1", 0.2)) * 0.5;
   }
   assembly_.notes().changed(type, "a gray of 0.5 instead of that texture");
   return gray(0.5);
-}
-
-Rgb Builder::bitmap(const Element& texture) {
-  const std::string file(text(texture, "filename"));
-  const auto found = images_.mean_color(file, [&]() -> std::string {
-    try {
-      std::string bytes = includes_.open(file).text;
-      includes_.close();
-      return bytes;
-    } catch (const InputError&) {
-      return {};
-    }
-  });
-  assembly_.notes().add(found ? "textures: their mean color alone is kept"
-                              : "textures that can't be read as PNG or JPEG: gray of 0.5");
-  return found.value_or(gray(0.5));
 }
 
 Builder::Finish Builder::finish_of(const Element& bsdf) {

@@ -28,15 +28,7 @@ std::optional<Rgb> read_texture(const Statement& s, const std::string& folder, I
   s.expect_arguments(1, Statement::kAnyNumber, "map_Kd file");
   std::string name(s.word(s.size() - 1));
   std::replace(name.begin(), name.end(), '\\', '/');
-  return textures.mean_color(folder + '\n' + name, [&]() -> std::string {
-    try {
-      std::string bytes = includes.open(name).text;
-      includes.close();
-      return bytes;
-    } catch (const InputError&) {
-      return {};
-    }
-  });
+  return textures.mean_color_of(name, includes, folder);
 }
 
 }  // namespace

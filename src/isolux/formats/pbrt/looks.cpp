@@ -42,18 +42,7 @@ void Directives::texture(const Token& directive, Lexer& lexer) {
     assembly_.notes().add("textures: their mean color alone is kept");
   } else if (kind == "imagemap" && parameters.find("filename")) {
     const std::string file(parameters.text("filename"));
-    const auto found = images_.mean_color(file, [&]() -> std::string {
-      try {
-        std::string bytes = includes_.open(file).text;
-        includes_.close();
-        return bytes;
-      } catch (const InputError&) {
-        return {};
-      }
-    });
-    assembly_.notes().add(found ? "textures: their mean color alone is kept"
-                                : "textures that can't be read as PNG or JPEG: gray of 0.5");
-    mean = found.value_or(mean) * or_gray("scale", 1);
+    mean = images_.mean_color_of(file, includes_, assembly_.notes()) * or_gray("scale", 1);
   } else {
     assembly_.notes().add("textures that are computed: gray of 0.5");
   }
