@@ -229,8 +229,9 @@ void cover(Triangulation& mesh, const RayCaster& rays, const CoverOptions& optio
     throw InputError("the spacing of a cover must be a positive length");
   }
   const SurfaceWalk walk(rays, mesh.rules().normal_tolerance);
-  CoverPoints points(walk, std::min(options.spacing, 0.5 * mesh.rules().max_edge), options.seed,
-                     options.keep_going);
+  const LightReach light(walk, options.seed);
+  CoverPoints points(walk, light, std::min(options.spacing, 0.5 * mesh.rules().max_edge),
+                     options.seed, options.keep_going);
   for (const ZonePoint& point : points_on_all_surfaces(walk, options.seed)) {
     points.grow_from(point);
   }

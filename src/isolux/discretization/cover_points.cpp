@@ -14,13 +14,15 @@ constexpr double kFromCrease = 0.5;
 
 }  // namespace
 
-CoverPoints::CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed,
-                         std::function<bool()> keep_going)
+CoverPoints::CoverPoints(const SurfaceWalk& walk, const LightReach& light, double spacing,
+                         std::uint64_t seed, std::function<bool()> keep_going)
     : walk_(walk),
+      light_(light),
       spacing_(spacing),
       random_(seed),
       grid_(walk.rays().scene().bounds().lower, walk.rays().scene().objects.size()),
       crease_grid_(walk.rays().scene().bounds().lower),
+      dark_grid_(walk.rays().scene().bounds().lower, walk.rays().scene().objects.size()),
       keep_going_(std::move(keep_going)) {}
 
 /// Whether to go on; asked now and then, and once refused, refused for good.
@@ -65,6 +67,18 @@ bool CoverPoints::crowded(const ZonePoint& point, const PointSpacing& spacing) c
   return crowded_by(ids, point, spacing);
 }
 
+/// Whether a surface's points are to be grown from here: light reaches it, and no point that stands
+/// too close is of the same patch. Behind a partition another one may begin.
+bool CoverPoints::begins(const ZonePoint& point, const PointSpacing& most) {
+  thread_local std::vector<std::uint32_t> ids;
+  grid_.query(point.surface.object, point.position, kApart * most.longest(), 1, ids);
+  std::erase_if(ids, [&](std::uint32_t id) { return !crowded_by({&id, 1}, point, most); });
+  for (const std::uint32_t id : ids) {
+    if (walk_.open(points_[id], point)) return false;
+  }
+  return light_.reaches_beside(point, random_);
+}
+
 bool CoverPoints::crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
                              const PointSpacing& spacing) const {
   return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
@@ -103,10 +117,26 @@ void CoverPoints::grow_from(const ZonePoint& point) {
   beyond_.push_back(point);
   for (std::size_t next = 0; next < beyond_.size() && going(); ++next) {
     const ZonePoint from = beyond_[next];
-    offer(from, {largest_on(from)});
+    const PointSpacing most{largest_on(from)};
+    if (begins(from, most)) look_from(from, most);
     spawn_all();
   }
   beyond_.clear();
+}
+
+/// Whether light reaches the point; places that it does not reach are remembered.
+bool CoverPoints::lit(const ZonePoint& point) {
+  const double size = largest_on(point);
+  thread_local std::vector<std::uint32_t> ids;
+  dark_grid_.query(point.surface.object, point.position, size, 1, ids);
+  for (const std::uint32_t id : ids) {
+    if (walk_.step(dark_[id], point.position)) return false;
+  }
+  if (light_.reaches(point, random_)) return true;
+  dark_grid_.insert(static_cast<std::uint32_t>(dark_.size()), point.surface.object, point.position,
+                    size);
+  dark_.push_back(point);
+  return false;
 }
 
 void CoverPoints::spawn_all() {
@@ -152,13 +182,16 @@ void CoverPoints::settle() {
   while (!beyond_.empty() && going()) {
     const ZonePoint point = beyond_.back();
     beyond_.pop_back();
-    offer(point, {largest_on(point)});
+    const PointSpacing most{largest_on(point)};
+    if (begins(point, most)) look_from(point, most);
     spawn_all();
   }
 }
 
-void CoverPoints::offer(const ZonePoint& point, const PointSpacing& most) {
-  if (crowded(point, most)) return;
+/// Makes points of the creases around a point that light reaches, and of itself where they leave
+/// room.
+void CoverPoints::look_from(const ZonePoint& point, const PointSpacing& most) {
+  if (!lit(point)) return;
   const Frame frame(point.normal);
   const double angle = kTau * random_.uniform();
   const Vec3 first = frame.u * std::cos(angle) + frame.v * std::sin(angle);
@@ -205,7 +238,7 @@ void CoverPoints::spawn(std::uint32_t id) {
     adjoin(parent, *child);
     PointSpacing most = parent;
     most.size = std::min(spacing_, 1.5 * parent.size);
-    offer(*child, most);
+    if (!crowded(*child, most)) look_from(*child, most);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "isolux/core/random.h"
+#include "isolux/discretization/light_reach.h"
 #include "isolux/discretization/point_spacing.h"
 #include "isolux/discretization/sheet_grid.h"
 #include "isolux/discretization/surface_walk.h"
@@ -23,7 +24,7 @@ struct CoverPoint : ZonePoint, PointSpacing {
 class CoverPoints {
  public:
   /// `spacing`: the largest size, m. `keep_going`, if any: as in CoverOptions.
-  CoverPoints(const SurfaceWalk& walk, double spacing, std::uint64_t seed,
+  CoverPoints(const SurfaceWalk& walk, const LightReach& light, double spacing, std::uint64_t seed,
               std::function<bool()> keep_going = {});
 
   /// Covers the smooth surface around `point` with points, and those that adjoin it, as far as
@@ -78,9 +79,11 @@ class CoverPoints {
   bool crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
                   const PointSpacing& spacing) const;
   PointSpacing graded(const ZonePoint& point, const PointSpacing& most) const;
-  void offer(const ZonePoint& point, const PointSpacing& most);
+  bool begins(const ZonePoint& point, const PointSpacing& most);
+  void look_from(const ZonePoint& point, const PointSpacing& most);
   double largest_on(const ZonePoint& point) const;
   void spawn(std::uint32_t parent);
+  bool lit(const ZonePoint& point);
   void accept(const ZonePoint& point, const Surroundings& around);
   void add(const CoverPoint& point, const Surroundings& around);
   void spawn_all();
@@ -106,10 +109,13 @@ class CoverPoints {
   PointSpacing spacing_inside(const CreasePoint& crease, double limit);
 
   const SurfaceWalk& walk_;
+  const LightReach& light_;
   double spacing_;
   Random random_;
   SheetGrid grid_;
   GradedGrid crease_grid_;  // those on creases, of all surfaces
+  SheetGrid dark_grid_;
+  std::vector<ZonePoint> dark_;  // where light does not come, each for the patch around it
   std::vector<CoverPoint> points_;
   std::vector<Surroundings> surroundings_;                // of the points, their creases left out
   std::vector<std::vector<std::uint32_t>> along_crease_;  // neighbours on the same crease

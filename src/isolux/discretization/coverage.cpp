@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "isolux/core/parallel.h"
+#include "isolux/discretization/light_reach.h"
 #include "isolux/discretization/mesh_rays.h"
 #include "isolux/sampling/lines.h"
 
@@ -21,6 +22,8 @@ Coverage coverage_of(const Triangulation& mesh, const RayCaster& rays, int lines
   const Bounds bounds = rays.scene().bounds();
   const double radius = 0.5 * bounds.diagonal(), reach = kOver * mesh.rules().max_edge;
   const MeshRays mesh_rays(mesh);
+  const SurfaceWalk walk(rays, mesh.rules().normal_tolerance);
+  const LightReach light(walk, seed);
   struct Count {
     std::size_t hits = 0, covered = 0;
   };
@@ -35,7 +38,9 @@ Coverage coverage_of(const Triangulation& mesh, const RayCaster& rays, int lines
       const Line line = random_line(bounds.center(), radius, random);
       rays.all_hits({line.point - line.direction * (1.01 * radius), line.direction}, {}, hits);
       for (const SurfaceHit& hit : hits) {
-        if (rays.buried(hit.point, hit.normal)) continue;
+        const auto point = walk.at(hit);
+        if (!point || !light.reaches(*point, random) || !light.reaches_beside(*point, random))
+          continue;
         ++count.hits;
         mesh_rays.all_hits({hit.point + hit.normal * reach, -hit.normal}, {0, 2 * reach}, over);
         count.covered += std::any_of(over.begin(), over.end(), [&](const MeshHit& m) {

@@ -373,10 +373,15 @@ void CoverPoints::trace(const CreaseSeed& seed) {
   const Rim rim = walk_.rim(seed.from, seed.direction, near, far, tolerance);
   adjoin(seed.from, rim.point);
   const Vec3 reached = tangential(seed.direction, rim.point.normal);
-  const auto outward = outward_at(rim.point, reached, size);
+  auto outward = outward_at(rim.point, reached, size);
   if (!outward || known(rim.point, *outward)) return;
   CreasePoint start{rim.point, *outward, {size}};
   start.spacing = spacing_inside(start, size);
+  if (start.spacing.size < 0.5 * size) {  // seen as finely as it is followed
+    outward = outward_at(rim.point, reached, start.spacing.size);
+    if (!outward || known(rim.point, *outward)) return;
+    start.outward = *outward;
+  }
   start.spacing.size *= std::max(1.0, kLeastStep * largest_on(rim.point) / start.step());
 
   std::vector<CreasePoint> chain{start}, back{start};

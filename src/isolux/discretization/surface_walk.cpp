@@ -45,9 +45,11 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
 }
 
 bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b) const {
-  // Lifted over the bulge of the surface between them, which is an eighth of its turn.
-  const double turn = length(a.normal - b.normal), along = distance(a.position, b.position);
-  const double lift = 0.2 * turn * along + 8 * rays_.epsilon();
+  // Lifted over the bulge of the surface between them: a quarter of how far each lies under the
+  // other's tangent plane, half of that where the turn is made at one edge.
+  const Vec3 d = b.position - a.position;
+  const double drop = std::max(std::abs(dot(d, a.normal)), std::abs(dot(d, b.normal)));
+  const double lift = 0.55 * drop + 8 * rays_.epsilon();
   return !rays_.occluded({a.position + a.normal * lift, b.position + b.normal * lift});
 }
 

@@ -1,0 +1,165 @@
+#include "isolux/discretization/light_reach.h"
+
+#include <numbers>
+
+#include "isolux/sampling/lines.h"
+
+namespace isolux {
+namespace {
+
+using Index = std::uint32_t;
+
+constexpr std::size_t kLinesThroughLight = 64;
+constexpr std::size_t kPlacesOfObject = 8;  // of lights, and of what they light
+// Light is sent out along so many paths, and followed over so many reflections.
+constexpr std::size_t kPaths = 1024;
+constexpr int kReflections = 12;
+// How often light is looked for from a point, straight and by reflections.
+constexpr int kStraightLooks = 24;
+constexpr int kPathsBack = 12;
+// A second point of the surface is this part of the scene's diagonal away from the first.
+constexpr double kAside = 1e-3;
+constexpr int kSides = 4;
+
+/// With a density proportional to the cosine from the normal.
+Vec3 diffuse_direction(const Vec3& normal, Random& random) {
+  const Frame frame(normal);
+  const double r2 = random.uniform(), angle = 2 * std::numbers::pi * random.uniform();
+  const double r = std::sqrt(r2);
+  return frame.to_world({r * std::cos(angle), r * std::sin(angle), std::sqrt(1 - r2)});
+}
+
+}  // namespace
+
+LightReach::LightReach(const SurfaceWalk& walk, std::uint64_t seed)
+    : rays_(walk.rays()), walk_(walk) {
+  find_lights(seed);
+  send_light(seed);
+}
+
+LightReach::Place LightReach::above(const Vec3& position, const Vec3& normal) const {
+  return {position + normal * (2 * rays_.epsilon()), normal};
+}
+
+void LightReach::find_lights(std::uint64_t seed) {
+  const Scene& scene = rays_.scene();
+  std::vector<SurfaceHit> hits;
+  for (Index i = 0; i < scene.objects.size(); ++i) {
+    if (!scene.objects[i].emits()) continue;
+    Random random(seed, i);
+    const Bounds bounds = scene.objects[i].shape->bounds();
+    const double radius = 0.5 * bounds.diagonal();
+    std::vector<Place> places;
+    for (std::size_t k = 0; k < kLinesThroughLight && places.size() < kPlacesOfObject; ++k) {
+      const Line line = random_line(bounds.center(), radius, random);
+      rays_.all_hits({line.point - line.direction * (1.01 * radius), line.direction}, {}, hits);
+      for (const SurfaceHit& hit : hits) {
+        if (hit.surface.object != i || hit.back) continue;
+        if (walk_.at(hit)) places.push_back(above(hit.point, hit.normal));
+      }
+    }
+    if (!places.empty()) lights_.push_back(std::move(places));
+  }
+}
+
+/// Where the light of a ray is reflected; nothing where it leaves the scene or is absorbed. The
+/// object that it met is left in `object`.
+std::optional<LightReach::Place> LightReach::reflected(const Ray& ray, Index& object) const {
+  const auto hit = rays_.nearest(ray);
+  if (!hit || dot(hit->normal, ray.direction) >= 0) return std::nullopt;
+  object = hit->surface.object;
+  return above(hit->point, hit->normal);
+}
+
+void LightReach::send_light(std::uint64_t seed) {
+  const Scene& scene = rays_.scene();
+  const std::size_t kinds = lights_.size() + scene.sources.size();
+  if (kinds == 0) return;
+  std::vector<std::size_t> known(scene.objects.size());
+  const Bounds bounds = scene.bounds();
+  const double radius = 0.5 * bounds.diagonal();
+  for (std::size_t path = 0; path < kPaths; ++path) {
+    Random random(seed, ~path);
+    Ray ray;
+    if (const std::size_t kind = path % kinds; kind < lights_.size()) {
+      const Place& from = lights_[kind][random.below(lights_[kind].size())];
+      ray = {from.position, diffuse_direction(from.normal, random)};
+    } else {
+      const Source& source = scene.sources[kind - lights_.size()];
+      const Line line = random_line(source.position, 1, random);
+      ray = {source.position, line.direction};
+      if (source.kind == Source::Kind::directional) {
+        const Frame across(source.direction);
+        const double r = radius * std::sqrt(random.uniform());
+        const double angle = 2 * std::numbers::pi * random.uniform();
+        ray = {bounds.center() +
+                   across.to_world({r * std::cos(angle), r * std::sin(angle), -2 * radius}),
+               source.direction};
+      }
+    }
+    for (int i = 0; i < kReflections; ++i) {
+      Index object = 0;
+      const auto place = reflected(ray, object);
+      if (!place) break;
+      if (known[object]++ < kPlacesOfObject) lit_.push_back(*place);
+      if (luminance(scene.material_of(object).reflectance) == 0) break;
+      ray = {place->position, diffuse_direction(place->normal, random)};
+    }
+  }
+}
+
+/// Whether one light, chosen at random, lights the place.
+bool LightReach::lit_straight(const Place& place, Random& random) const {
+  const auto& sources = rays_.scene().sources;
+  const std::size_t kind = random.below(lights_.size() + sources.size());
+  if (kind < lights_.size()) {
+    const Place& light = lights_[kind][random.below(lights_[kind].size())];
+    return !rays_.occluded({place.position, light.position});
+  }
+  const Source& source = sources[kind - lights_.size()];
+  const bool directional = source.kind == Source::Kind::directional;
+  const Vec3 from =
+      directional ? place.position - source.direction * (2 * rays_.scene().bounds().diagonal())
+                  : source.position;
+  return dot(from - place.position, place.normal) > 0 && !rays_.occluded({place.position, from});
+}
+
+bool LightReach::sees_lit_place(const Place& place, Random& random) const {
+  if (lit_.empty()) return false;
+  return !rays_.occluded({place.position, lit_[random.below(lit_.size())].position});
+}
+
+bool LightReach::reaches(const SurfacePoint& point, Random& random) const {
+  if (lights_.empty() && rays_.scene().sources.empty()) return true;
+  const Place start = above(point.position, point.normal);
+  for (int i = 0; i < kStraightLooks; ++i) {
+    if (lit_straight(start, random) || sees_lit_place(start, random)) return true;
+  }
+  for (int i = 0; i < kPathsBack; ++i) {
+    Place place = start;
+    for (int k = 0; k < kReflections; ++k) {
+      Index object = 0;
+      const auto next =
+          reflected({place.position, diffuse_direction(place.normal, random)}, object);
+      if (!next) break;
+      place = *next;
+      if (lit_straight(place, random) || sees_lit_place(place, random)) return true;
+    }
+  }
+  return false;
+}
+
+bool LightReach::reaches_beside(const ZonePoint& point, Random& random) const {
+  const Frame frame(point.normal);
+  const double far = kAside * rays_.scene().bounds().diagonal();
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    const Vec3 d = frame.u * std::cos(angle) + frame.v * std::sin(angle);
+    if (const auto other = walk_.step(point, point.position + d * far)) {
+      return reaches(*other, random);
+    }
+  }
+  return true;
+}
+
+}  // namespace isolux

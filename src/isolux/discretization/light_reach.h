@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "isolux/core/random.h"
+#include "isolux/discretization/surface_walk.h"
+
+namespace isolux {
+
+/// Whether light can reach a point of a scene, straight or by reflection: not the inside of a
+/// closed drawer, nor the outer side of a room's walls. Light is sent out first, to learn a few
+/// places of each object that it reaches; a point that sees such a place, or from where a random
+/// path of reflections leads to a point that sees one, is reached too. Gaps that hardly a path in
+/// a hundred finds do not count.
+class LightReach {
+ public:
+  /// `walk` must outlive it. Where the scene has no light, everything counts as reached.
+  LightReach(const SurfaceWalk& walk, std::uint64_t seed);
+
+  /// Cost: a few rays where it is reached, some hundreds where not.
+  bool reaches(const SurfacePoint& point, Random& random) const;
+
+  /// Whether it reaches a point of the same surface close by: surfaces that touch leave a hairline
+  /// between them, and a point in there tells nothing of the rest.
+  bool reaches_beside(const ZonePoint& point, Random& random) const;
+
+ private:
+  struct Place {
+    Vec3 position;  ///< a hair above the surface
+    Vec3 normal;
+  };
+  Place above(const Vec3& position, const Vec3& normal) const;
+  void find_lights(std::uint64_t seed);
+  void send_light(std::uint64_t seed);
+  std::optional<Place> reflected(const Ray& ray, std::uint32_t& object) const;
+  bool lit_straight(const Place& place, Random& random) const;
+  bool sees_lit_place(const Place& place, Random& random) const;
+
+  const RayCaster& rays_;
+  const SurfaceWalk& walk_;
+  std::vector<std::vector<Place>> lights_;  ///< of each object that emits
+  std::vector<Place> lit_;                  ///< a few of each object
+};
+
+}  // namespace isolux
