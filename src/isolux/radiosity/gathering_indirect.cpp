@@ -238,8 +238,8 @@ std::vector<VertexId> Gathering::outdated_vertices() const {
   std::vector<char> touched(state_.light.size());  // ends of such edges
   for (const auto& [edge, error] : state_.split_since)
     touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
-  const auto gain = [&](const Landing& landing) {
-    const auto& v = landing.vertices;
+  const auto gain_of = [&](const Site& site) {
+    const auto& v = site.vertices;
     if (touched[v[0]] + touched[v[1]] + touched[v[2]] < 2) return 0.0;
     double most = 0;
     for (int k = 0; k < 3; ++k) {
@@ -249,12 +249,14 @@ std::vector<VertexId> Gathering::outdated_vertices() const {
     }
     return most > 0 ? most * luminance(mesh_.vertex(v[0]).reflectance) / 2 : 0;
   };
+  std::vector<double> gain;
+  for (const Site& site : state_.sites.sites()) gain.push_back(gain_of(site));
   std::vector<char> renew(state_.light.size());
   parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const std::vector<Landing>& row = state_.light[v].row;
+      const std::vector<Link>& row = state_.light[v].row;
       double sum = 0;
-      for (const Landing& landing : row) sum += gain(landing);
+      for (const Link& link : row) sum += gain[link.site];
       renew[v] = state_.light[v].gathers && sum > matters * static_cast<double>(row.size());
     }
   });
@@ -267,20 +269,20 @@ std::vector<VertexId> Gathering::outdated_vertices() const {
 
 void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   const std::vector<Middle> middles = middles_of(suspect);
-  std::vector<int> grids;
   const std::vector<int> wanted = wanted_grids();
-  for (const Edge& e : suspect) {
-    grids.push_back(std::min(std::max(wanted[e.a], wanted[e.b]), kTrialGrid));
-    state_.statistics.refinement_rays += square_of(grids.back());
+  std::vector<RowRequest> requests;
+  std::vector<std::size_t> of;  // the suspects
+  for (std::size_t i = 0; i < suspect.size(); ++i) {
+    if (!middles[i].point) continue;
+    const auto& [a, b, area] = suspect[i];
+    const int grid = std::min(std::max(wanted[a], wanted[b]), kTrialGrid);
+    of.push_back(i);
+    requests.push_back(
+        {{middles[i].point->position, middles[i].point->normal}, grid, suspect[i].key()});
   }
-  std::vector<std::vector<Landing>> rows(suspect.size());
-  for_pieces(suspect.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!middles[i].point) continue;
-      rows[i] =
-          links({middles[i].point->position, middles[i].point->normal}, grids[i], suspect[i].key());
-    }
-  });
+  std::vector<TracedRow> rows(suspect.size());
+  trace_rows(requests, [&](std::size_t i, TracedRow row) { rows[of[i]] = std::move(row); });
+  light_sites();
   std::vector<Gathered> gathered(suspect.size());
   std::vector<std::size_t> costly;
   std::vector<Edge> to_split;
@@ -288,11 +290,11 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
     const Edge& edge = suspect[i];
     foreseen += square(state_.bend_scale * usual_bend(edge.a, edge.b)) * edge.area;
-    if (rows[i].empty()) {
+    if (rows[i].links.empty()) {
       state_.indirect_error[edge.key()] = 0;
       continue;
     }
-    gathered[i] = gather(rows[i]);
+    gathered[i] = gather(rows[i].links);
     const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
     const double e = luminance((a.indirect + b.indirect) / 2 - gathered[i].irradiance);
     const double noise = square(gathered[i].error) +

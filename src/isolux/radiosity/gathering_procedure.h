@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -78,12 +79,27 @@ class Gathering {
   std::vector<double> areas_of_influence();
   std::vector<int> wanted_grids();
   void trace_as_wanted(std::span<const VertexId> vertices, std::span<const int> wanted, int finest);
-  std::vector<Landing> links(const Receiver& receiver, int grid, std::uint64_t id) const;
-  void give_links(VertexId v, std::vector<Landing> row);
+  struct RowRequest {
+    Receiver receiver;
+    int grid;  // cells a side
+    std::uint64_t id;
+  };
+  struct TracedRow {
+    std::vector<Link> links;
+    double escaped = 0;       // part of the rays that no light comes back from
+    std::vector<Site> fresh;  // of the links to kFresh, in their order
+  };
+  void trace_rows(std::span<const RowRequest> requests,
+                  const std::function<void(std::size_t, TracedRow)>& take);
+  TracedRow traced(const RowRequest& request) const;
+  void list_fresh_sites(TracedRow& row);
+  void give_links(VertexId v, TracedRow row);
+  void drop_unused_sites();
+  void light_sites();
   void glimpse();
   void look_up_anew();
   std::vector<VertexId> outdated_vertices() const;
-  Gathered gather(std::span<const Landing> row) const;
+  Gathered gather(std::span<const Link> row) const;
   void evaluate(std::span<const VertexId> vertices);
   void interpolate_indirect(VertexId v);
   void foresee_bends(VertexId first);
@@ -133,20 +149,6 @@ class Gathering {
     return at == errors.end() ? 0 : at->second;
   }
 
-  /// Calls body(begin, end) for pieces of 0 … n − 1 on several threads, until told to stop. Returns
-  /// how many were done, from the first on.
-  template <typename Body>
-  std::size_t for_pieces(std::size_t n, Body&& body) {
-    std::size_t done = 0;
-    while (done < n && keep_going()) {
-      const std::size_t first = done, count = std::min(kChunk, n - first);
-      parallel_for(count, kGrain,
-                   [&](std::size_t begin, std::size_t end) { body(first + begin, first + end); });
-      done += count;
-    }
-    return done;
-  }
-
   /// The mean of the errors `e` of edges around each vertex, by area, so that the sum over the
   /// whole mesh is right.
   template <typename Error>
@@ -170,6 +172,7 @@ class Gathering {
   const DirectLight lights_;
   const double diagonal_;                       // of the scene, m
   std::optional<HemisphereGather> hemisphere_;  // over the mesh as it was at look_up_anew()
+  std::vector<SiteLight> site_light_;           // by site, as of light_sites()
   std::vector<VertexId> order_;          // vertices, each after those it is interpolated from
   std::vector<double> indirect_excess_;  // by vertex, lx: of the errors of E_i
   bool stopped_ = false;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "isolux/radiosity/gathering_procedure.h"
 #include "isolux/radiosity/spatial_order.h"
@@ -8,6 +9,9 @@ namespace isolux {
 namespace {
 
 constexpr double kSamplingShare = 0.6;  // of the tolerance: σ of E_i
+
+// Stands for the number of a site that is not listed yet.
+constexpr std::uint32_t kFresh = std::numeric_limits<std::uint32_t>::max();
 
 constexpr int kCoarsestGrid = 8;  // rays over a hemisphere: cells a side
 constexpr double kFall = 1.5;     // σ² falls as the number of rays to the power of −kFall
@@ -131,55 +135,117 @@ void Gathering::trace_as_wanted(std::span<const VertexId> vertices, std::span<co
   evaluate(vertices);
 }
 
-std::vector<Landing> Gathering::links(const Receiver& receiver, int grid, std::uint64_t id) const {
-  std::vector<Landing> row(square_of(grid));
-  hemisphere_->trace(receiver, grid, options_.seed, id, row);
-  return row;
-}
-
 /// Gives the vertices links of their own, over grids of so many cells a side.
 void Gathering::trace(std::span<const VertexId> vertices, std::span<const int> grids) {
   std::vector<Vec3> places;
   for (VertexId v : vertices) places.push_back(mesh_.vertex(v).position);
   const std::vector<std::uint32_t> order = z_order(places);
-  for_pieces(vertices.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const VertexId v = vertices[order[i]];
-      const Vertex& vertex = mesh_.vertex(v);
-      give_links(v, links({vertex.gather_point, vertex.normal}, grids[order[i]], v));
-    }
-  });
-  for (const int grid : grids) state_.statistics.refinement_rays += square_of(grid);
+  std::vector<RowRequest> requests;
+  for (const std::uint32_t i : order) {
+    const Vertex& vertex = mesh_.vertex(vertices[i]);
+    requests.push_back({{vertex.gather_point, vertex.normal}, grids[i], vertices[i]});
+  }
+  trace_rows(requests,
+             [&](std::size_t i, TracedRow row) { give_links(vertices[order[i]], std::move(row)); });
 }
 
-void Gathering::give_links(VertexId v, std::vector<Landing> row) {
+/// Traces rows in parallel, and hands them out one after the other, until told to stop.
+void Gathering::trace_rows(std::span<const RowRequest> requests,
+                           const std::function<void(std::size_t, TracedRow)>& take) {
+  constexpr std::size_t kRows = 512, kFew = 16;  // few, for the sake of memory
+  std::vector<TracedRow> rows;
+  for (std::size_t first = 0; first < requests.size() && keep_going(); first += kRows) {
+    rows.resize(std::min(kRows, requests.size() - first));
+    parallel_for(rows.size(), kFew, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) rows[i] = traced(requests[first + i]);
+    });
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      list_fresh_sites(rows[i]);
+      state_.statistics.refinement_rays += rows[i].links.size();
+      take(first + i, std::move(rows[i]));
+    }
+  }
+}
+
+/// A row whose sites are listed as far as they were before.
+Gathering::TracedRow Gathering::traced(const RowRequest& request) const {
+  thread_local std::vector<Landing> landings;
+  landings.resize(square_of(request.grid));
+  hemisphere_->trace(request.receiver, request.grid, options_.seed, request.id, landings);
+  TracedRow row;
+  row.links.reserve(landings.size());
+  for (const Landing& landing : landings) {
+    const std::optional<std::uint32_t> site = state_.sites.find(landing.site);
+    row.links.push_back({site.value_or(kFresh), landing.weights});
+    if (!site) row.fresh.push_back(landing.site);
+    row.escaped += hemisphere_->lost(landing.site);
+  }
+  row.escaped /= static_cast<double>(landings.size());
+  return row;
+}
+
+void Gathering::list_fresh_sites(TracedRow& row) {
+  auto site = row.fresh.begin();
+  for (Link& link : row.links) {
+    if (link.site == kFresh) link.site = state_.sites.add(*site++);
+  }
+  row.fresh = {};
+}
+
+void Gathering::give_links(VertexId v, TracedRow row) {
   VertexLight& light = state_.light[v];
-  light.escaped = hemisphere_->escaped(row);
+  light.escaped = row.escaped;
   light.bend = 0;
   light.gathers = true;
-  light.row = std::move(row);
+  light.row = std::move(row.links);
 }
 
 /// Landings from here on are looked up in the mesh as it is now.
 void Gathering::look_up_anew() {
+  drop_unused_sites();
   hemisphere_.emplace(rays_, mesh_, lights_.separate());
   state_.split_since.clear();
+}
+
+/// Lists the sites anew that links lead to.
+void Gathering::drop_unused_sites() {
+  SiteTable kept;
+  std::vector<std::uint32_t> renamed(state_.sites.sites().size(), kFresh);
+  for (VertexLight& light : state_.light) {
+    for (Link& link : light.row) {
+      std::uint32_t& site = renamed[link.site];
+      if (site == kFresh) site = kept.add(state_.sites.sites()[link.site]);
+      link.site = site;
+    }
+  }
+  state_.sites = std::move(kept);
+}
+
+/// What all sites send under the light of the moment.
+void Gathering::light_sites() {
+  const std::span<const Site> sites = state_.sites.sites();
+  site_light_.resize(sites.size());
+  parallel_for(sites.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      site_light_[i] = hemisphere_->light_of(sites[i], state_.sent);
+    }
+  });
 }
 
 /// Gives a few links to the vertices that have none, for a rough look at E_i.
 void Gathering::glimpse() {
   constexpr int kFewRays = 4;  // cells a side
   std::vector<VertexId> blind;
+  std::vector<RowRequest> requests;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
-    if (state_.light[v].row.empty()) blind.push_back(v);
+    if (!state_.light[v].row.empty()) continue;
+    const Vertex& vertex = mesh_.vertex(v);
+    blind.push_back(v);
+    requests.push_back({{vertex.gather_point, vertex.normal}, kFewRays, v});
   }
-  const std::size_t done = for_pieces(blind.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vertex& vertex = mesh_.vertex(blind[i]);
-      state_.light[blind[i]].row = links({vertex.gather_point, vertex.normal}, kFewRays, blind[i]);
-    }
+  trace_rows(requests, [&](std::size_t i, TracedRow row) {
+    state_.light[blind[i]].row = std::move(row.links);
   });
-  state_.statistics.refinement_rays += done * square_of(kFewRays);
 }
 
 }  // namespace isolux

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "isolux/core/color.h"
-#include "isolux/discretization/triangulation.h"
-#include "isolux/radiosity/hemisphere_gather.h"
+#include "isolux/discretization/interpolation.h"
+#include "isolux/radiosity/links.h"
 #include "isolux/radiosity/progress.h"
 #include "isolux/radiosity/statistics.h"
 
@@ -27,7 +27,7 @@ struct VertexLight {
                             // gather: those it lies among, all of them less deep
   std::uint32_t depth = 0;  // 0: it has none, and gathers
   bool gathers = false;
-  std::vector<Landing> row;  // where it gathers; few where it does not, for a glimpse
+  std::vector<Link> row;  // where it gathers; few where it does not, for a glimpse
 };
 
 /// What gathering knows between two of its rounds: enough to go on from there.
@@ -47,6 +47,7 @@ struct GatheringState {
 
   Triangulation mesh;
   std::vector<VertexLight> light;  // by vertex
+  SiteTable sites;                 // where the links in `light` lead
   std::vector<Rgb> sent;           // E by vertex as its triangles have it on average, lx
   /// Errors of interpolation in the middle of edges, lx, positive where it is too bright, by the
   /// ends a < b: a × 2³² + b.

@@ -11,15 +11,16 @@ constexpr double kUnshotShare = 0.02;  // of the tolerance: light not yet passed
 
 }  // namespace
 
-/// E_i by links, under the light of the moment, with its σ.
-Gathered Gathering::gather(std::span<const Landing> row) const {
-  Gathered gathered = hemisphere_->gather_with_error(row, state_.sent);
+/// E_i by links, under the light as of light_sites(), with its σ.
+Gathered Gathering::gather(std::span<const Link> row) const {
+  Gathered gathered = gather_with_error(row, site_light_);
   gathered.irradiance = gathered.irradiance * state_.balance;
   return gathered;
 }
 
 /// E_i of vertices with links, under the light of the moment, with its σ.
 void Gathering::evaluate(std::span<const VertexId> vertices) {
+  light_sites();
   parallel_for(vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       VertexLight& light = state_.light[vertices[i]];
@@ -115,10 +116,11 @@ void Gathering::transfer() {
   }
   for (int sweep = 0; sweep < kMostSweeps && keep_going(); ++sweep) {
     const std::vector<Rgb> old = state_.sent;
+    light_sites();
     parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         VertexLight& light = state_.light[gatherers[i]];
-        light.indirect = hemisphere_->gather(light.row, state_.sent) * state_.balance;
+        light.indirect = isolux::gather(light.row, site_light_) * state_.balance;
       }
     });
     for (const VertexId v : order()) {
@@ -130,6 +132,7 @@ void Gathering::transfer() {
     if (state_.statistics.unshot_flux <= enough * state_.statistics.emitted_flux) break;
     add_ambient(old);
   }
+  light_sites();
   parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       VertexLight& light = state_.light[gatherers[i]];

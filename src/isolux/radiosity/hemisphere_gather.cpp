@@ -9,8 +9,6 @@
 namespace isolux {
 namespace {
 
-constexpr double kUnit = 65535;  // of Landing::weights
-
 /// A direction of the unit disk, in polar coordinates.
 struct Polar {
   double radius, angle;
@@ -54,6 +52,31 @@ double variance(std::span<const double> values) {
   return squares / (n - 1);
 }
 
+template <typename Ray, typename Radiosity>
+Rgb mean(std::span<const Ray> row, const Radiosity& radiosity) {
+  Rgb sum;
+  for (const Ray& ray : row) sum += radiosity(ray);
+  return sum / static_cast<double>(row.size());
+}
+
+/// As HemisphereGather::gather_with_error() has it.
+template <typename Ray, typename Radiosity>
+Gathered mean_with_error(std::span<const Ray> row, const Radiosity& radiosity) {
+  thread_local std::vector<double> values;
+  values.clear();
+  Gathered gathered;
+  for (const Ray& ray : row) {
+    const Rgb b = radiosity(ray);
+    gathered.irradiance += b;
+    values.push_back(luminance(b));
+  }
+  const auto n = static_cast<double>(row.size());
+  gathered.irradiance = gathered.irradiance / n;
+  const int grid = static_cast<int>(std::lround(std::sqrt(n)));
+  gathered.error = std::sqrt((grid < 3 ? variance(values) : variance_in_cells(values, grid)) / n);
+  return gathered;
+}
+
 }  // namespace
 
 HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
@@ -71,18 +94,17 @@ HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& m
 }
 
 Landing HemisphereGather::land(const Ray& ray) const {
-  const Landing outside{static_cast<std::uint32_t>(surfaces_.size() - 1), {}, {}};
-  const Landing black{outside.surface - 1, {}, {}};
+  const Landing outside{{static_cast<std::uint32_t>(surfaces_.size() - 1), {}}};
+  const Landing black{{outside.site.surface - 1, {}}};
   const std::optional<SurfaceHit> hit = rays_.nearest(ray);
   if (!hit) return outside;
   if (dot(hit->normal, ray.direction) >= 0) return black;
   const std::uint32_t surface = 3 * hit->surface.object;
   const std::optional<MeshPlace> place = lookup_.place(hit->point, hit->normal);
-  if (!place) return hit->back ? black : Landing{surface + 2, {}, {}};
-  Landing landing{surface + hit->back, {}, {}};
-  landing.vertices = place->vertices;
+  if (!place) return hit->back ? black : Landing{{surface + 2, {}}};
+  Landing landing{{surface + hit->back, place->vertices}};
   for (std::size_t k = 0; k < 2; ++k) {
-    landing.weights[k] = static_cast<std::uint16_t>(place->weights[k + 1] * kUnit);
+    landing.weights[k] = static_cast<std::uint16_t>(place->weights[k + 1] / kSiteWeightUnit);
   }
   return landing;
 }
@@ -122,52 +144,44 @@ std::vector<Landing> HemisphereGather::trace(std::span<const Receiver> receivers
   return rows;
 }
 
-Rgb HemisphereGather::radiosity(const Landing& landing, std::span<const Rgb> irradiance) const {
-  const Surface& surface = surfaces_[landing.surface];
-  constexpr double kWeight = 1 / kUnit;
-  const double w1 = landing.weights[0] * kWeight, w2 = landing.weights[1] * kWeight;
-  const auto& [a, b, c] = landing.vertices;
-  const Rgb received = irradiance[a] * (1 - w1 - w2) + irradiance[b] * w1 + irradiance[c] * w2;
-  return surface.emission + surface.reflectance * received;
+SiteLight HemisphereGather::light_of(const Site& site, std::span<const Rgb> irradiance) const {
+  const Surface& surface = surfaces_[site.surface];
+  const auto narrow = [](const Rgb& c) {
+    return std::array{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+  };
+  const auto& [a, b, c] = site.vertices;
+  return {narrow(surface.emission + surface.reflectance * irradiance[a]),
+          narrow(surface.reflectance * (irradiance[b] - irradiance[a])),
+          narrow(surface.reflectance * (irradiance[c] - irradiance[a]))};
 }
 
 Rgb HemisphereGather::reflected(std::span<const Landing> row,
                                 std::span<const Rgb> irradiance) const {
-  Rgb sum;
-  for (const Landing& landing : row) {
-    sum += radiosity(landing, irradiance) - surfaces_[landing.surface].emission;
-  }
-  return sum / static_cast<double>(row.size());
-}
-
-double HemisphereGather::escaped(std::span<const Landing> row) const {
-  const auto out = std::count_if(row.begin(), row.end(), [&](const Landing& landing) {
-    return landing.surface >= surfaces_.size() - 2;
+  return mean(row, [&](const Landing& landing) {
+    return light_of(landing.site, irradiance).at(landing.weights) -
+           surfaces_[landing.site.surface].emission;
   });
-  return static_cast<double>(out) / static_cast<double>(row.size());
 }
 
 Rgb HemisphereGather::gather(std::span<const Landing> row, std::span<const Rgb> irradiance) const {
-  Rgb sum;
-  for (const Landing& landing : row) sum += radiosity(landing, irradiance);
-  return sum / static_cast<double>(row.size());
+  return mean(row, [&](const Landing& landing) {
+    return light_of(landing.site, irradiance).at(landing.weights);
+  });
 }
 
 Gathered HemisphereGather::gather_with_error(std::span<const Landing> row,
                                              std::span<const Rgb> irradiance) const {
-  thread_local std::vector<double> values;
-  values.clear();
-  Gathered gathered;
-  for (const Landing& landing : row) {
-    const Rgb b = radiosity(landing, irradiance);
-    gathered.irradiance += b;
-    values.push_back(luminance(b));
-  }
-  const auto n = static_cast<double>(row.size());
-  gathered.irradiance = gathered.irradiance / n;
-  const int grid = static_cast<int>(std::lround(std::sqrt(n)));
-  gathered.error = std::sqrt((grid < 3 ? variance(values) : variance_in_cells(values, grid)) / n);
-  return gathered;
+  return mean_with_error(row, [&](const Landing& landing) {
+    return light_of(landing.site, irradiance).at(landing.weights);
+  });
+}
+
+Rgb gather(std::span<const Link> row, std::span<const SiteLight> sites) {
+  return mean(row, [&](const Link& link) { return sites[link.site].at(link.weights); });
+}
+
+Gathered gather_with_error(std::span<const Link> row, std::span<const SiteLight> sites) {
+  return mean_with_error(row, [&](const Link& link) { return sites[link.site].at(link.weights); });
 }
 
 }  // namespace isolux

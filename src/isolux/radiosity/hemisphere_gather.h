@@ -6,24 +6,16 @@
 #include <vector>
 
 #include "isolux/discretization/mesh_lookup.h"
+#include "isolux/radiosity/links.h"
 #include "isolux/radiosity/visibility.h"
 
 namespace isolux {
 
-/// Where a ray over a hemisphere lands: a place in the mesh, and whose surface it is. 20 bytes.
+/// Where a ray over a hemisphere lands: a place in the mesh, and whose surface it is.
 struct Landing {
-  /// Which entry of the surfaces' table: 3 × object, + 1 on its back, which does not emit, + 2
-  /// where it only emits, the mesh having no vertex there; then an entry for what is black, because
-  /// it faces away, and last one for the outside, where nothing is.
-  std::uint32_t surface = 0;
-  std::array<VertexId, 3> vertices{};
-  /// Of the second and third vertex, in units of 1 / 65535; the first has the rest.
-  std::array<std::uint16_t, 2> weights{};
-
-  /// Of the second and third vertex.
-  std::array<double, 2> weight() const { return {weights[0] / 65535.0, weights[1] / 65535.0}; }
+  Site site;
+  SiteWeights weights{};
 };
-static_assert(sizeof(Landing) == 20);
 
 /// Irradiance with its error.
 struct Gathered {
@@ -64,11 +56,10 @@ class HemisphereGather {
   /// The part of gather() that is reflected, without what the surfaces emit by themselves.
   Rgb reflected(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
 
-  /// The part of the row's rays from where no light comes back: they leave the scene, or meet a
-  /// black back.
-  double escaped(std::span<const Landing> row) const;
+  /// Whether no light comes back from there: what leaves the scene, or meets a black back.
+  bool lost(const Site& site) const { return site.surface >= surfaces_.size() - 2; }
 
-  /// Landing::surface is less than this.
+  /// Site::surface is less than this.
   static std::size_t surface_count(const Scene& scene) { return 3 * scene.objects.size() + 2; }
 
   /// The irradiance that the row's surfaces give with `irradiance` (lx) at the mesh's vertices.
@@ -80,9 +71,11 @@ class HemisphereGather {
   /// cells a side, the error is the spread of all rays.
   Gathered gather_with_error(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
 
+  /// What sites send out with `irradiance` (lx) at the mesh's vertices, for the two below.
+  SiteLight light_of(const Site& site, std::span<const Rgb> irradiance) const;
+
  private:
   Landing land(const Ray& ray) const;
-  Rgb radiosity(const Landing& landing, std::span<const Rgb> irradiance) const;
 
   /// What a surface does to light.
   struct Surface {
@@ -92,7 +85,13 @@ class HemisphereGather {
 
   const RayCaster& rays_;
   MeshLookup lookup_;
-  std::vector<Surface> surfaces_;  // by Landing::surface
+  std::vector<Surface> surfaces_;  // by Site::surface
 };
+
+/// HemisphereGather::gather() of a row that is kept, from the light of all sites.
+Rgb gather(std::span<const Link> row, std::span<const SiteLight> sites);
+
+/// HemisphereGather::gather_with_error() of a row that is kept.
+Gathered gather_with_error(std::span<const Link> row, std::span<const SiteLight> sites);
 
 }  // namespace isolux

@@ -12,6 +12,7 @@
 #include "isolux/core/file.h"
 #include "isolux/core/version.h"
 #include "isolux/radiosity/gathering.h"
+#include "isolux/radiosity/hemisphere_gather.h"
 #include "isolux/solution/glb.h"
 #include "isolux/solution/metadata.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "isolux checkpoint 1";
+constexpr const char* kFormat = "isolux checkpoint 2";
 
 [[noreturn]] void damaged(const char* key) {
   throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
@@ -50,7 +51,7 @@ struct PackedLight {
          excess = 0, glimpse = 0, glimpse_deviation = 0;
   MeshPlace among;
   std::uint32_t depth = 0, gathers = 0;
-  std::uint64_t landings = 0;
+  std::uint64_t links = 0;
 };
 
 struct PackedError {
@@ -169,15 +170,16 @@ void put_errors(json& object, const char* key,
 json state_to_json(const GatheringState& state) {
   json object;
   std::vector<PackedLight> lights;
-  std::vector<Landing> landings;
+  std::vector<Link> links;
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend,
                       l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among, l.depth,
                       l.gathers, l.row.size()});
-    landings.insert(landings.end(), l.row.begin(), l.row.end());
+    links.insert(links.end(), l.row.begin(), l.row.end());
   }
   put(object, "light", lights);
-  put(object, "landings", landings);
+  put(object, "links", links);
+  put(object, "sites", std::vector(state.sites.sites().begin(), state.sites.sites().end()));
   put(object, "sent", state.sent);
   put_errors(object, "direct_error", state.direct_error);
   put_errors(object, "indirect_error", state.indirect_error);
@@ -197,18 +199,21 @@ std::unordered_map<std::uint64_t, float> get_errors(const json& object, const ch
 GatheringState state_from_json(const json& object, Triangulation mesh, std::size_t surface_count) {
   GatheringState state(std::move(mesh));
   const std::size_t vertex_count = state.mesh.vertices().size();
-  const auto landings = get<Landing>(object, "landings");
-  for (const Landing& landing : landings) {
-    const bool known = std::all_of(landing.vertices.begin(), landing.vertices.end(),
+  for (const Site& site : get<Site>(object, "sites")) {
+    const bool known = std::all_of(site.vertices.begin(), site.vertices.end(),
                                    [&](VertexId v) { return v < vertex_count; });
-    if (!known || landing.surface >= surface_count) damaged("landings");
+    if (!known || site.surface >= surface_count) damaged("sites");
+    state.sites.add(site);
+  }
+  const auto links = get<Link>(object, "links");
+  for (const Link& link : links) {
+    if (link.site >= state.sites.sites().size()) damaged("links");
   }
   std::size_t next = 0;
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
     state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation,
                            p.own_bend, p.bend, p.escaped, p.excess, p.glimpse, p.glimpse_deviation,
-                           p.among, p.depth, p.gathers != 0,
-                           take(landings, next, p.landings, "landings")});
+                           p.among, p.depth, p.gathers != 0, take(links, next, p.links, "links")});
   }
   state.sent = get<Rgb>(object, "sent");
   if (state.light.size() != vertex_count) damaged("light");
