@@ -72,9 +72,10 @@ std::vector<double> Gathering::areas_of_influence() {
 
 /// The grids of rays, in cells a side, that keep σ within its share of the tolerance over all
 /// surfaces. For so many rays as it takes, one more anywhere takes as much off Σ A σ² (Neyman
-/// 1934); but nowhere is σ more than so many tolerances of E.
+/// 1934); but nowhere is σ more than so many tolerances of E, or of what counts as dim.
 std::vector<int> Gathering::wanted_grids() {
   constexpr double kMostNoise = 2;
+  constexpr double kDim = 0.25;  // of the mean irradiance
   const std::vector<double> areas = areas_of_influence(), doubt = doubts();
   const auto worth = [&](VertexId v) { return std::pow(areas[v] * doubt[v], 1 / (1 + kFall)); };
   double sum = 0;
@@ -86,7 +87,8 @@ std::vector<int> Gathering::wanted_grids() {
   std::vector<int> grids(areas.size());
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
-      const double most = square(kMostNoise * state_.level * luminance(irradiance(v)));
+      const double e = std::max(luminance(irradiance(v)), kDim * mean_irradiance());
+      const double most = square(kMostNoise * state_.level * e);
       const double least = most > 0 ? std::pow(doubt[v] / most, 1 / kFall) : 0;
       const double side = std::ceil(std::sqrt(std::max(fineness * worth(v), least)));
       grids[v] = static_cast<int>(
@@ -97,14 +99,15 @@ std::vector<int> Gathering::wanted_grids() {
 }
 
 /// New links for the vertices that gather and are worth clearly more rays than they have, or whose
-/// links are out of date; again where that shows σ to be larger than it seemed. A few for those
-/// that have none.
+/// links are out of date; again where that shows σ to be larger than it seemed, once it is known
+/// how much light there is. A few for those that have none.
 void Gathering::gather_all() {
   constexpr int kMostPasses = 4;
   constexpr double kClearly = 1.3;
   std::vector<VertexId> gatherers = outdated_vertices();
   look_up_anew();
-  for (int pass = 0; pass < kMostPasses && !stopped_; ++pass) {
+  const int passes = mean_irradiance() > 0 ? kMostPasses : 1;
+  for (int pass = 0; pass < passes && !stopped_; ++pass) {
     const std::vector<int> wanted = wanted_grids();
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       const VertexLight& light = state_.light[v];
