@@ -119,6 +119,7 @@ class RayCaster::Impl {
       if (!shape.unbounded()) boxes.push_back(bounds.back());
     }
     solid_tree.emplace(boxes);
+    bounds_tree.emplace(bounds);
   }
 
   /// Sends the query's ray through the tree.
@@ -134,7 +135,8 @@ class RayCaster::Impl {
   std::vector<Bounds> bounds;  // by object
   // Objects that are solid, and those that are so beyond their bounds too, as a room's walls are.
   std::vector<std::uint32_t> solids, endless;
-  std::optional<BoxTree> solid_tree;  // of `solids`
+  std::optional<BoxTree> solid_tree;   // of `solids`
+  std::optional<BoxTree> bounds_tree;  // of `bounds`
 };
 
 RayCaster::RayCaster(const Scene& scene)
@@ -229,10 +231,8 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
 }
 
 Blockers RayCaster::blockers(const Bounds& from, const Bounds& to) const {
-  constexpr std::size_t kMostObjects = 256, kMostParts = 4;
+  constexpr std::size_t kMostParts = 4;
   Blockers found;
-  found.many_ = impl_->bounds.size() > kMostObjects;
-  if (found.many_) return found;
   // Room for the hair by which points are lifted off surfaces. It lifts them off the walls of a
   // room into the room, so that these need none.
   const Vec3 hair = Vec3{1, 1, 1} * (2 * epsilon());
@@ -240,13 +240,15 @@ Blockers RayCaster::blockers(const Bounds& from, const Bounds& to) const {
   const Shaft shaft(grown(from), grown(to));
   Bounds both = from;
   both.include(to);
-  for (std::uint32_t i = 0; i < impl_->bounds.size(); ++i) {
-    const Shape& shape = *impl_->scene.objects[i].shape;
-    if (shaft.misses(impl_->bounds[i]) || shape.avoids(both)) continue;
-    found.many_ = found.count_ == Blockers::kMost || shape.part_count() > kMostParts;
-    if (found.many_) return found;
-    found.objects_[found.count_++] = i;
-  }
+  found.many_ = impl_->bounds_tree->any(
+      [&](const Bounds& box) { return !shaft.misses(box); },
+      [&](std::uint32_t i) {
+        const Shape& shape = *impl_->scene.objects[i].shape;
+        if (shaft.misses(impl_->bounds[i]) || shape.avoids(both)) return false;
+        if (found.count_ == Blockers::kMost || shape.part_count() > kMostParts) return true;
+        found.objects_[found.count_++] = i;
+        return false;
+      });
   return found;
 }
 

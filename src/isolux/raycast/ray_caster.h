@@ -92,8 +92,7 @@ class RayCaster {
   /// blocked[i] = 1 where segments[i] is occluded, else 0.
   void occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const;
 
-  /// What may stand anywhere between the two boxes. Cost: the number of objects; all of them where
-  /// there are more than 256.
+  /// What may stand anywhere between the two boxes.
   Blockers blockers(const Bounds& from, const Bounds& to) const;
 
   /// Whether surely nothing stands there, so that no segment from one box to the other is
