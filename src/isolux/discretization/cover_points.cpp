@@ -67,16 +67,47 @@ bool CoverPoints::crowded(const ZonePoint& point, const PointSpacing& spacing) c
   return crowded_by(ids, point, spacing);
 }
 
-/// Whether a surface's points are to be grown from here: light reaches it, and no point that stands
-/// too close is of the same patch. Behind a partition another one may begin.
-bool CoverPoints::begins(const ZonePoint& point, const PointSpacing& most) {
+/// Whether points that can be seen from here, each within twice its size, stand on all sides.
+bool CoverPoints::surrounded(const ZonePoint& point) const {
+  constexpr double kNear = 2;         // sizes
+  constexpr std::size_t kMost = 16;   // points, the nearest
+  constexpr double kWidestGap = 3.0;  // rad
   thread_local std::vector<std::uint32_t> ids;
-  grid_.query(point.surface.object, point.position, kApart * most.longest(), 1, ids);
-  std::erase_if(ids, [&](std::uint32_t id) { return !crowded_by({&id, 1}, point, most); });
+  grid_.query(point.surface.object, point.position, kNear * largest_on(point), kNear, ids);
+  std::vector<std::pair<double, std::uint32_t>> near;
   for (const std::uint32_t id : ids) {
-    if (walk_.open(points_[id], point)) return false;
+    const CoverPoint& q = points_[id];
+    const Vec3 d = q.position - point.position;
+    if (dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) continue;
+    if (q.measure(d) < kNear * q.size) near.emplace_back(q.measure(d) / q.size, id);
   }
-  return light_.reaches_beside(point, random_);
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kMost));
+  const Frame frame(point.normal);
+  std::vector<double> angles;
+  for (const auto& [away, id] : near) {
+    const CoverPoint& q = points_[id];
+    if (!walk_.open(q, point)) continue;
+    const Vec3 d = q.position - point.position;
+    const double angle = std::atan2(dot(d, frame.v), dot(d, frame.u));
+    angles.insert(std::upper_bound(angles.begin(), angles.end(), angle), angle);
+    double widest = angles.front() + kTau - angles.back();
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+      widest = std::max(widest, angles[i] - angles[i - 1]);
+    }
+    if (widest < kWidestGap) return true;
+  }
+  return false;
+}
+
+/// Whether a point that can be seen from here stands too close for another one.
+bool CoverPoints::crowded_in_sight(const ZonePoint& point) const {
+  const PointSpacing most{largest_on(point)};
+  thread_local std::vector<std::uint32_t> ids;
+  grid_.query(point.surface.object, point.position, kApart * most.size, 1, ids);
+  std::erase_if(ids, [&](std::uint32_t id) { return !crowded_by({&id, 1}, point, most); });
+  return std::any_of(ids.begin(), ids.end(),
+                     [&](std::uint32_t id) { return walk_.open(points_[id], point); });
 }
 
 bool CoverPoints::crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
@@ -114,18 +145,24 @@ double CoverPoints::largest_on(const ZonePoint& point) const {
 }
 
 void CoverPoints::grow_from(const ZonePoint& point) {
-  beyond_.push_back(point);
+  if (!going() || surrounded(point)) return;
+  begin_at(point);
   for (std::size_t next = 0; next < beyond_.size() && going(); ++next) {
     const ZonePoint from = beyond_[next];
-    const PointSpacing most{largest_on(from)};
-    if (begins(from, most)) look_from(from, most);
-    spawn_all();
+    if (!crowded_in_sight(from)) begin_at(from);
   }
   beyond_.clear();
 }
 
+/// Covers the patch around a point, if light reaches that.
+void CoverPoints::begin_at(const ZonePoint& point) {
+  if (light_.reaches_beside(point, random_)) look_from(point, {largest_on(point)});
+  spawn_all();
+}
+
 /// Whether light reaches the point; places that it does not reach are remembered.
 bool CoverPoints::lit(const ZonePoint& point) {
+  if (light_.sees_light(point, random_)) return true;
   const double size = largest_on(point);
   thread_local std::vector<std::uint32_t> ids;
   dark_grid_.query(point.surface.object, point.position, size, 1, ids);
@@ -182,9 +219,7 @@ void CoverPoints::settle() {
   while (!beyond_.empty() && going()) {
     const ZonePoint point = beyond_.back();
     beyond_.pop_back();
-    const PointSpacing most{largest_on(point)};
-    if (begins(point, most)) look_from(point, most);
-    spawn_all();
+    if (!crowded_in_sight(point)) begin_at(point);
   }
 }
 

@@ -79,7 +79,9 @@ class CoverPoints {
   bool crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
                   const PointSpacing& spacing) const;
   PointSpacing graded(const ZonePoint& point, const PointSpacing& most) const;
-  bool begins(const ZonePoint& point, const PointSpacing& most);
+  bool surrounded(const ZonePoint& point) const;
+  bool crowded_in_sight(const ZonePoint& point) const;
+  void begin_at(const ZonePoint& point);
   void look_from(const ZonePoint& point, const PointSpacing& most);
   double largest_on(const ZonePoint& point) const;
   void spawn(std::uint32_t parent);

@@ -62,10 +62,11 @@ bool CoverPoints::known(const SurfacePoint& point, const Vec3& outward) const {
   });
 }
 
-/// The direction across the crease at a rim reached in `direction`, by two rims beside it.
+/// The direction across the crease at a rim reached in `direction`, by two rims beside it, so close
+/// that no corner lies between.
 std::optional<Vec3> CoverPoints::outward_at(const ZonePoint& rim, const Vec3& direction,
                                             double size) const {
-  const double aside = std::max(0.02 * size, 20 * fineness(size));
+  const double finest = 20 * fineness(size), aside = std::max(0.02 * size, finest);
   const Vec3 forward = tangential(direction, rim.normal), left = cross(rim.normal, forward);
   const auto back = walk_.over(rim, rim.position - forward * aside);
   if (!back) return std::nullopt;
@@ -78,12 +79,12 @@ std::optional<Vec3> CoverPoints::outward_at(const ZonePoint& rim, const Vec3& di
     if (walk_.step(*start, start->position + ahead * far)) continue;
     beside[side] = walk_.rim(*start, ahead, 0, far, fineness(size)).point.position;
   }
+  const bool straight = beside[0] && beside[1] &&
+                        distance_to_segment(rim.position, *beside[0], *beside[1]) < 0.03 * aside;
+  if (!straight && aside > 4 * finest) return outward_at(rim, direction, size / 8);
   if (!beside[0] && !beside[1]) return std::nullopt;
   Vec3 along = beside[1].value_or(rim.position) - beside[0].value_or(rim.position);
-  if (beside[0] && beside[1] &&
-      distance_to_segment(rim.position, *beside[0], *beside[1]) > 0.1 * aside) {
-    along = *beside[1] - rim.position;  // a corner lies between: one of the two creases
-  }
+  if (beside[0] && beside[1] && !straight) along = *beside[1] - rim.position;  // of two, one
   const Vec3 outward = tangential(cross(along, rim.normal), rim.normal);
   if (!(dot(outward, forward) > 0.05)) return std::nullopt;
   return outward;
@@ -234,10 +235,10 @@ void CoverPoints::follow(const CreasePoint& start, const Vec3& direction,
       if (!next) {
         if (const auto meeting = corner_ahead(from, along, step, near)) {
           chain.push_back(*meeting);
-        } else if (last && near > 0.2 * step) {
-          chain.push_back(*last);
+          return;
         }
-        return;
+        if (!last || near < 0.2 * step) return;
+        next = last, step = near;
       }
     }
     double turn = turned(*next);
@@ -373,15 +374,10 @@ void CoverPoints::trace(const CreaseSeed& seed) {
   const Rim rim = walk_.rim(seed.from, seed.direction, near, far, tolerance);
   adjoin(seed.from, rim.point);
   const Vec3 reached = tangential(seed.direction, rim.point.normal);
-  auto outward = outward_at(rim.point, reached, size);
+  const auto outward = outward_at(rim.point, reached, size);
   if (!outward || known(rim.point, *outward)) return;
   CreasePoint start{rim.point, *outward, {size}};
   start.spacing = spacing_inside(start, size);
-  if (start.spacing.size < 0.5 * size) {  // seen as finely as it is followed
-    outward = outward_at(rim.point, reached, start.spacing.size);
-    if (!outward || known(rim.point, *outward)) return;
-    start.outward = *outward;
-  }
   start.spacing.size *= std::max(1.0, kLeastStep * largest_on(rim.point) / start.step());
 
   std::vector<CreasePoint> chain{start}, back{start};

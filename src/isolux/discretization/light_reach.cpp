@@ -129,12 +129,18 @@ bool LightReach::sees_lit_place(const Place& place, Random& random) const {
   return !rays_.occluded({place.position, lit_[random.below(lit_.size())].position});
 }
 
-bool LightReach::reaches(const SurfacePoint& point, Random& random) const {
+bool LightReach::sees_light(const SurfacePoint& point, Random& random) const {
   if (lights_.empty() && rays_.scene().sources.empty()) return true;
   const Place start = above(point.position, point.normal);
   for (int i = 0; i < kStraightLooks; ++i) {
     if (lit_straight(start, random) || sees_lit_place(start, random)) return true;
   }
+  return false;
+}
+
+bool LightReach::reaches(const SurfacePoint& point, Random& random) const {
+  if (sees_light(point, random)) return true;
+  const Place start = above(point.position, point.normal);
   for (int i = 0; i < kPathsBack; ++i) {
     Place place = start;
     for (int k = 0; k < kReflections; ++k) {

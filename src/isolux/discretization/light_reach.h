@@ -17,6 +17,10 @@ class LightReach {
   /// `walk` must outlive it. Where the scene has no light, everything counts as reached.
   LightReach(const SurfaceWalk& walk, std::uint64_t seed);
 
+  /// Whether a light, or a place that light reaches, is seen from the point, as far as a few rays
+  /// can tell.
+  bool sees_light(const SurfacePoint& point, Random& random) const;
+
   /// Cost: a few rays where it is reached, some hundreds where not.
   bool reaches(const SurfacePoint& point, Random& random) const;
 
