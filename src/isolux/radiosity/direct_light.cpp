@@ -1,6 +1,7 @@
 #include "isolux/radiosity/direct_light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "isolux/core/parallel.h"
@@ -15,10 +16,29 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// Halvings of a lattice line in search of the shadow's edge.
-constexpr int kHalvings = 7;
-/// Halvings, of a quarter of the chord, in search of how far the edge bows out of it.
-constexpr int kBowHalvings = 5;
+/// How closely shadows' edges are searched.
+struct Precision {
+  int halvings;      ///< of a lattice line in search of the shadow's edge
+  int bow_halvings;  ///< of a quarter of the chord, in search of how far the edge bows out of it
+
+  /// So that σ of a light that is partly seen is less than a quarter of the tolerance, times that
+  /// light, even where an edge runs along its lattice and is off by the same on all lines.
+  static Precision of(double tolerance) {
+    constexpr int kMost = 7, kFewerForBows = 2;
+    const double needed = std::log2(kSigma / kLines * 4 / std::max(tolerance, 1e-6));
+    const int halvings = std::clamp(static_cast<int>(std::ceil(needed)), 1, kMost);
+    return {halvings, std::max(0, halvings - kFewerForBows)};
+  }
+
+  /// σ of a cut, in parts of the lattice line.
+  double cut() const { return std::ldexp(kSigma, -halvings); }
+  /// σ of the seen part of a triangle that an edge cuts.
+  double bent() const { return 0.007 + std::ldexp(0.1, -bow_halvings); }
+
+ private:
+  static constexpr double kSigma = 0.29;  // of a place anywhere between 0 and 1
+  static constexpr int kLines = 8;        // of a lattice
+};
 constexpr double kBowReach = 0.125;
 /// How many neighbours share shafts and doubts.
 constexpr std::size_t kGroup = 32;
@@ -55,8 +75,9 @@ std::vector<Index> in_groups(std::span<const Receiver> receivers) {
 /// What is found out about one light by a group of receivers; kept for its memory.
 class Group {
  public:
-  Group(const RayCaster& rays, const LightLattice& light, std::span<const Receiver> receivers)
-      : rays_(rays), light_(light), receivers_(receivers) {}
+  Group(const RayCaster& rays, const LightLattice& light, std::span<const Receiver> receivers,
+        const Precision& precision)
+      : rays_(rays), light_(light), receivers_(receivers), precision_(precision) {}
 
   /// Adds the light to each receiver's irradiance, and to the variance of its luminance.
   void light_up(std::span<Rgb> irradiance, std::span<double> variance) {
@@ -156,7 +177,7 @@ class Group {
     }
     double step = 0.5;
     blocked_.resize(crossings_.size());
-    for (int round = 0; round < kHalvings; ++round, step /= 2) {
+    for (int round = 0; round < precision_.halvings; ++round, step /= 2) {
       segments_.clear();
       for (const Crossing& c : crossings_) {
         segments_.push_back({start(c.receiver), light_.at(light_.lines[c.line], c.s + step)});
@@ -186,7 +207,7 @@ class Group {
     }
     double step = kBowReach;
     blocked_.resize(bows_.size());
-    for (int round = 0; round < kBowHalvings; ++round, step /= 2) {
+    for (int round = 0; round < precision_.bow_halvings; ++round, step /= 2) {
       segments_.clear();
       for (const Bow& bow : bows_) {
         segments_.push_back({start(bow.receiver), bow.middle + bow.outward * bow.s});
@@ -229,8 +250,7 @@ class Group {
 
   /// Adds the form factor of what is seen of the piece, and the variance of that.
   void add_piece(const Piece& piece, std::size_t k, bool clear, double& factor, double& variance) {
-    constexpr double kWidth = 0.29 / (1 << kHalvings);  // standard deviation within the last step
-    constexpr double kBent = 0.01, kBowDoubt = 0.35;
+    constexpr double kBowDoubt = 0.35;
     const Receiver& r = receiver(k);
     if (!clear && all_alike_ && !all_seen_) return;
     if (clear || all_alike_) {
@@ -255,9 +275,9 @@ class Group {
       const double part = cut.odd_seen ? cut.next * cut.last : 1 - cut.next * cut.last;
       seen += thin ? weight * part : exact_part(triangle, cut, r);
       seen += weight * (std::clamp(part + bow, 0.0, 1.0) - part);
-      const double bent = weight * (kBent + kBowDoubt * std::abs(bow));
+      const double bent = weight * (precision_.bent() + kBowDoubt * std::abs(bow));
       spread += bent * bent;
-      shift += weight * (cut.next + cut.last) * kWidth;
+      shift += weight * (cut.next + cut.last) * precision_.cut();
     }
     // Where an edge runs along the lattice, all its cuts are off by the same.
     spread += shift * shift;
@@ -324,6 +344,7 @@ class Group {
   const RayCaster& rays_;
   const LightLattice& light_;
   std::span<const Receiver> receivers_;
+  const Precision precision_;
   std::vector<Index> facing_;
   bool all_alike_ = false, all_seen_ = false;
   std::vector<std::uint8_t> open_;  // by receiver, then point
@@ -349,8 +370,9 @@ DirectLight::DirectLight(const RayCaster& rays)
 }
 
 void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
-                             std::span<double> error) const {
+                             std::span<double> error, double tolerance) const {
   const std::vector<Index> order = in_groups(receivers);
+  const Precision precision = Precision::of(tolerance);
   parallel_for(receivers.size(), kGroup, [&](std::size_t begin, std::size_t end) {
     const std::size_t n = end - begin;
     std::array<Receiver, kGroup> group;
@@ -358,7 +380,7 @@ void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb>
     std::array<double, kGroup> variance{};
     for (std::size_t i = 0; i < n; ++i) group[i] = receivers[order[begin + i]];
     for (const auto& light : lights_) {
-      Group(rays_, *light, std::span(group).first(n)).light_up(sum, variance);
+      Group(rays_, *light, std::span(group).first(n), precision).light_up(sum, variance);
     }
     for (const Source& source : rays_.scene().sources) {
       add_source_light(rays_, source, std::span(group).first(n), sum);

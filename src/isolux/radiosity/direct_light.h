@@ -27,10 +27,11 @@ class DirectLight {
   std::span<const std::uint8_t> separate() const { return separate_; }
 
   /// The direct irradiance (lx) at each receiver, and one standard deviation of its luminance (lx).
-  /// Groups of those that stand close together and face alike share what is found out. Runs in
-  /// parallel; a value depends on the list, not on the number of threads.
+  /// Groups of those that stand close together and face alike share what is found out. Shadows'
+  /// edges are searched as closely as a solve to `tolerance` needs. Runs in parallel; a value
+  /// depends on the list, not on the number of threads.
   void irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
-                  std::span<double> error) const;
+                  std::span<double> error, double tolerance = 0) const;
 
  private:
   const RayCaster& rays_;

@@ -41,10 +41,10 @@ void Gathering::run() {
   if (mesh_.vertices().empty()) first_solution();
   for (; keep_going(); ++state_.statistics.iterations) {
     refine_direct();
-    gather_all();
+    gather_all(kTrialGrid);
     transfer();
     refine_indirect();
-    gather_all();
+    gather_all(HemisphereGather::kFinestGrid);
     transfer();
     estimate();
     if (stopped_ || !next_level() || full()) break;
@@ -59,12 +59,12 @@ void Gathering::first_solution() {
   cover_options.seed = options_.seed;
   cover_options.keep_going = [this] { return keep_going(); };
   cover(mesh_, rays_, cover_options);
+  state_.level = std::max(options_.tolerance, kFirstTolerance);
   light_newborn();
   const Coarsening subsets = coarsen(mesh_, kSubsets);
   for (const VertexId v : subsets.order) state_.give_parents(v, subsets.places[v]);
   state_.statistics.emitted_flux = emitted_flux();
-  state_.level = std::max(options_.tolerance, kFirstTolerance);
-  gather_all();
+  gather_all(kTrialGrid);
   transfer();
   estimate();
 }
@@ -77,6 +77,7 @@ bool Gathering::next_level() {
   if (state_.statistics.converged) return false;
   if (state_.level > options_.tolerance) {
     state_.level = std::max(options_.tolerance, state_.level / kLevelRatio);
+    look_closer();
     return true;
   }
   state_.level *=

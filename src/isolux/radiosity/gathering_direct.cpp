@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "isolux/discretization/split_points.h"
 #include "isolux/radiosity/gathering_procedure.h"
@@ -20,24 +21,43 @@ constexpr double kBulk = 0.7;
 
 }  // namespace
 
-/// E_d of the vertices that have none yet.
-void Gathering::light_newborn() {
-  const std::size_t first = state_.light.size(), n = mesh_.vertices().size();
-  state_.light.resize(n);
-  state_.sent.resize(n);
+/// E_d of vertices, as closely as the level asks for.
+void Gathering::light_directly(std::span<const VertexId> vertices) {
   std::vector<Receiver> receivers;
-  for (std::size_t v = first; v < n; ++v) {
-    const Vertex& vertex = mesh_.vertex(static_cast<VertexId>(v));
+  for (const VertexId v : vertices) {
+    const Vertex& vertex = mesh_.vertex(v);
     receivers.push_back({vertex.gather_point, vertex.normal});
   }
   std::vector<Rgb> irradiance(receivers.size());
   std::vector<double> deviation(receivers.size());
-  lights_.irradiance(receivers, irradiance, deviation);
-  for (std::size_t i = 0; i < receivers.size(); ++i) {
-    state_.light[first + i].direct = irradiance[i];
-    state_.light[first + i].direct_deviation = deviation[i];
-    sum_up(static_cast<VertexId>(first + i));
+  lights_.irradiance(receivers, irradiance, deviation, state_.level);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    state_.light[vertices[i]].direct = irradiance[i];
+    state_.light[vertices[i]].direct_deviation = deviation[i];
+    sum_up(vertices[i]);
   }
+}
+
+/// E_d of the vertices that have none yet.
+void Gathering::light_newborn() {
+  std::vector<VertexId> newborn(mesh_.vertices().size() - state_.light.size());
+  std::iota(newborn.begin(), newborn.end(), static_cast<VertexId>(state_.light.size()));
+  state_.light.resize(mesh_.vertices().size());
+  state_.sent.resize(mesh_.vertices().size());
+  light_directly(newborn);
+}
+
+/// Looks closer at E_d of vertices where a shadow's edge on a light was left too open for a
+/// stricter level.
+void Gathering::look_closer() {
+  constexpr double kTooOpen = 0.3;  // σ, of the tolerance
+  std::vector<VertexId> open;
+  for (VertexId v = 0; v < state_.light.size(); ++v) {
+    if (state_.light[v].direct_deviation > kTooOpen * state_.level * mean_irradiance()) {
+      open.push_back(v);
+    }
+  }
+  light_directly(open);
 }
 
 /// The surface over the middles of `chosen` edges, and E_d there.
@@ -58,7 +78,7 @@ void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::
   }
   std::vector<Rgb> irradiance(of.size());
   std::vector<double> deviation(of.size());
-  lights_.irradiance(receivers, irradiance, deviation);
+  lights_.irradiance(receivers, irradiance, deviation, state_.level);
   for (std::size_t i = 0; i < of.size(); ++i) {
     middles[of[i]].direct = irradiance[i];
     middles[of[i]].deviation = deviation[i];

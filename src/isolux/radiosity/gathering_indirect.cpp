@@ -7,7 +7,6 @@ namespace isolux {
 namespace {
 
 constexpr double kIndirectShare = 0.55;  // of the tolerance: interpolation of E_i
-constexpr int kTrialGrid = 16;           // cells a side, until it is known who gathers
 constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain from finer triangles
 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what

@@ -38,6 +38,9 @@ class Gathering {
   static constexpr std::size_t kChunk = 8192;  // work between two looks at the clock
   static constexpr std::size_t kGrain = 256;
 
+  // Rays over a hemisphere, cells a side, until it is known who gathers.
+  static constexpr int kTrialGrid = 16;
+
   // Of a linear function's error squared over a triangle, as a mean: 8/45 (Σ e² + Σ e e') for the
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
   static constexpr double kMeanSquare = 16.0 / 45;
@@ -59,7 +62,9 @@ class Gathering {
     double deviation = 0;
   };
   void refine_direct();
+  void light_directly(std::span<const VertexId> vertices);
   void light_newborn();
+  void look_closer();
   std::vector<Middle> middles_of(std::span<const Edge> edges);
   void light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
                      std::span<Middle> middles);
@@ -73,7 +78,7 @@ class Gathering {
   void split(std::span<const Edge> edges, std::span<const Middle> middles);
 
   // E_i
-  void gather_all();
+  void gather_all(int finest);
   void trace(std::span<const VertexId> vertices, std::span<const int> grids);
   std::vector<double> doubts();
   std::vector<double> areas_of_influence();

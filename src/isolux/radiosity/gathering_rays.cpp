@@ -101,7 +101,7 @@ std::vector<int> Gathering::wanted_grids() {
 /// New links for the vertices that gather and are worth clearly more rays than they have, or whose
 /// links are out of date; again where that shows σ to be larger than it seemed, once it is known
 /// how much light there is. A few for those that have none.
-void Gathering::gather_all() {
+void Gathering::gather_all(int finest) {
   constexpr int kMostPasses = 4;
   constexpr double kClearly = 1.3;
   std::vector<VertexId> gatherers = outdated_vertices();
@@ -112,14 +112,14 @@ void Gathering::gather_all() {
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       const VertexLight& light = state_.light[v];
       if (!light.gathers && light.depth > 0) continue;
-      if (double(square_of(wanted[v])) > kClearly * double(light.row.size())) {
+      if (double(square_of(std::min(wanted[v], finest))) > kClearly * double(light.row.size())) {
         gatherers.push_back(v);
       }
     }
     if (gatherers.empty()) break;
     std::sort(gatherers.begin(), gatherers.end());
     gatherers.erase(std::unique(gatherers.begin(), gatherers.end()), gatherers.end());
-    trace_as_wanted(gatherers, wanted, HemisphereGather::kFinestGrid);
+    trace_as_wanted(gatherers, wanted, finest);
     gatherers.clear();
   }
   glimpse();
