@@ -24,10 +24,10 @@ struct Precision {
   /// So that σ of a light that is partly seen is less than a quarter of the tolerance, times that
   /// light, even where an edge runs along its lattice and is off by the same on all lines.
   static Precision of(double tolerance) {
-    constexpr int kMost = 7, kFewerForBows = 2;
+    constexpr int kMost = 7, kFewerForBows = 2, kFewestForBows = 2;
     const double needed = std::log2(kSigma / kLines * 4 / std::max(tolerance, 1e-6));
     const int halvings = std::clamp(static_cast<int>(std::ceil(needed)), 1, kMost);
-    return {halvings, std::max(0, halvings - kFewerForBows)};
+    return {halvings, std::max(kFewestForBows, halvings - kFewerForBows)};
   }
 
   /// σ of a cut, in parts of the lattice line.
@@ -106,11 +106,13 @@ class Group {
     }
     for (std::size_t k = 0; k < facing_.size(); ++k) {
       const Index i = facing_[k];
-      double factor = 0, spread = 0;
+      double factor = 0, spread = 0, shift = 0;
       for (const Piece& piece : light_.pieces) {
         if (!may_see(piece, receivers_[i], rays_.epsilon())) continue;
-        add_piece(piece, k, clear, factor, spread);
+        add_piece(piece, k, clear, factor, spread, shift);
       }
+      // Where an edge runs along the lattice, all its cuts are off by the same.
+      spread += shift * shift;
       irradiance[i] += light_.exitance * factor;
       spread += light_.flatness * light_.flatness * factor * factor;
       const double m = luminance(light_.exitance);
@@ -248,8 +250,10 @@ class Group {
     return {odd, cut(k, triangle, odd, tip), cut(k, triangle, (odd + 2) % 3, tip), seen(odd)};
   }
 
-  /// Adds the form factor of what is seen of the piece, and the variance of that.
-  void add_piece(const Piece& piece, std::size_t k, bool clear, double& factor, double& variance) {
+  /// Adds the form factor of what is seen of the piece, the variance of that, and the σ that its
+  /// cuts share with those of other pieces.
+  void add_piece(const Piece& piece, std::size_t k, bool clear, double& factor, double& variance,
+                 double& shift) {
     constexpr double kBowDoubt = 0.35;
     const Receiver& r = receiver(k);
     if (!clear && all_alike_ && !all_seen_) return;
@@ -261,7 +265,7 @@ class Group {
     // thin pencils: cos cos' / r² changes so little within a lattice triangle that its middle
     // stands for it. Near by, or on the horizon, each seen part is measured by itself.
     const bool thin = !near(piece, r);
-    double whole = 0, seen = 0, spread = 0, shift = 0;
+    double whole = 0, seen = 0, spread = 0, shared = 0;
     for (Index t = piece.first; t < piece.end; ++t) {
       const LatticeTriangle& triangle = light_.triangles[t];
       const int corners = seen_corners(k, triangle);
@@ -277,14 +281,13 @@ class Group {
       seen += weight * (std::clamp(part + bow, 0.0, 1.0) - part);
       const double bent = weight * (precision_.bent() + kBowDoubt * std::abs(bow));
       spread += bent * bent;
-      shift += weight * (cut.next + cut.last) * precision_.cut();
+      shared += weight * (cut.next + cut.last) * precision_.cut();
     }
-    // Where an edge runs along the lattice, all its cuts are off by the same.
-    spread += shift * shift;
     if (!(seen > 0)) return;
     const double scale = thin ? form_factor(r.point, r.normal, piece.polygon()) / whole : 1;
     factor += scale * seen;
     variance += scale * scale * spread;
+    shift += scale * shared;
   }
 
   /// Whether the lattice is coarse as seen from here, or the horizon cuts it.
