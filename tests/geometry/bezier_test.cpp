@@ -7,6 +7,7 @@
 
 #include "geometry/zoo.h"
 #include "isolux/core/error.h"
+#include "isolux/geometry/bernstein.h"
 #include "isolux/geometry/parallelogram.h"
 #include "isolux/geometry/triangle_mesh.h"
 
@@ -186,7 +187,6 @@ std::vector<Points> globe() {
 
 TEST(BezierTest, AGlobe) {
   const Bezier shape(globe());
-  EXPECT_EQ(shape.part_count(), 8u);
   EXPECT_NEAR(*shape.area(), 4 * pi, 4 * pi * 6e-4);
   Random random(6);
   for (int i = 0; i < 2000; ++i) {

@@ -216,7 +216,8 @@ void add_bezier(std::vector<Specimen>& zoo) {
   }
   const Level level = [graphs](const Vec3& p) {
     const std::size_t k = p.x < 3 ? 0 : 1;
-    const auto f = graphs[k].at(p.x / 3 - static_cast<double>(k), p.y / 3);
+    const auto f =
+        graphs[k].slopes_at(CubicBasis(p.x / 3 - static_cast<double>(k)), CubicBasis(p.y / 3));
     return (p.z - 1 - f.value) / length({f.along_u / 3, f.along_v / 3, 1});
   };
   zoo.push_back({"BezierPatch",

@@ -5,9 +5,26 @@
 #include <span>
 #include <vector>
 
-#include "isolux/core/vec3.h"
+#include "isolux/geometry/ray.h"
 
 namespace isolux {
+
+/// Whether the whole line passes through the box, sides included.
+inline bool meets(const Ray& line, const Bounds& box) {
+  double first = -std::numeric_limits<double>::infinity(), last = -first;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.lower[axis] - line.origin[axis];
+    const double high = box.upper[axis] - line.origin[axis];
+    if (line.direction[axis] == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    const double a = low / line.direction[axis], b = high / line.direction[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last;
+}
 
 /// Finds boxes among many: a binary tree, halved at the median along the longest side.
 class BoxTree {

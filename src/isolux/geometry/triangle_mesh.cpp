@@ -67,21 +67,6 @@ struct TriangleMesh::Line {
     const Vec3 q = p - origin;
     return {q[x] - shear_x * q[z], q[y] - shear_y * q[z], q[z] * per_z};
   }
-
-  bool meets(const Bounds& box) const {
-    double first = -std::numeric_limits<double>::infinity(), last = -first;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = box.lower[axis] - origin[axis], high = box.upper[axis] - origin[axis];
-      if (direction[axis] == 0) {
-        if (low > 0 || high < 0) return false;
-        continue;
-      }
-      const double a = low / direction[axis], b = high / direction[axis];
-      first = std::max(first, std::min(a, b));
-      last = std::min(last, std::max(a, b));
-    }
-    return first <= last;
-  }
 };
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> points, std::vector<Corners> triangles)
@@ -187,7 +172,11 @@ bool TriangleMesh::any_hit(const Line& line, const Visit& visit) const {
     return h && visit(*h);
   };
   if (part_count() > kFew)
-    return tree().any([&](const Bounds& box) { return line.meets(box); }, ask);
+    return tree().any(
+        [&](const Bounds& box) {
+          return meets({line.origin, line.direction}, box);
+        },
+        ask);
   for (std::size_t part = 0; part < part_count(); ++part) {
     if (ask(part)) return true;
   }
