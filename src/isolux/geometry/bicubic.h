@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace isolux {
 
@@ -47,12 +48,12 @@ struct Bicubic {
 
   /// Whether some value may be within `slack` of 0.
   bool may_vanish(double slack) const {
-    const auto [least, most] = std::minmax_element(c.begin(), c.end());
-    return *least <= slack && *most >= -slack;
+    const auto [least, most] = extremes();
+    return least <= slack && most >= -slack;
   }
   double largest() const {
-    const auto [least, most] = std::minmax_element(c.begin(), c.end());
-    return std::max(-*least, *most);
+    const auto [least, most] = extremes();
+    return std::max(-least, most);
   }
   /// No less than the distance of the slopes along u (axis 0) or v from `slope`.
   double slope_deviation(int axis, double slope) const {
@@ -99,6 +100,17 @@ struct Bicubic {
   }
 
  private:
+  /// The least and the greatest coefficient: by columns, for vector units.
+  std::pair<double, double> extremes() const {
+    std::array<double, 4> least = {c[0], c[1], c[2], c[3]}, most = least;
+    for (std::size_t j = 1; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        least[i] = std::min(least[i], c[4 * j + i]), most[i] = std::max(most[i], c[4 * j + i]);
+      }
+    }
+    return {std::min(std::min(least[0], least[1]), std::min(least[2], least[3])),
+            std::max(std::max(most[0], most[1]), std::max(most[2], most[3]))};
+  }
   std::array<double, 4> along_v(const std::array<double, 4>& weights) const {
     std::array<double, 4> row = {};
     for (std::size_t j = 0; j < 4; ++j) {

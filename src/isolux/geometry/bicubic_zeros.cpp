@@ -45,12 +45,15 @@ NearIdentity::Zeros NearIdentity::search(Place& p) const {
   return Zeros::unknown;
 }
 
-Bicubic::ValueAndSlopes Depth::at(const Place& place) const {
+double unevenness(const Bicubic& x, const Bicubic& y, int axis) {
+  const Bicubic &own = axis == 0 ? x : y, &other = axis == 0 ? y : x;
+  return std::max({own.largest_second(axis, axis), other.largest_second(axis, axis),
+                   other.largest_second(0, 1)});
+}
+
+double Depth::at(const Place& place) const {
   const CubicBasis u(place.u), v(place.v);
-  const auto d = scaled.slopes_at(u, v), w = weight.slopes_at(u, v);
-  const double value = d.value / w.value;
-  return {value, (d.along_u - value * w.along_u) / w.value,
-          (d.along_v - value * w.along_v) / w.value};
+  return scaled.at(u, v) / weight.at(u, v);
 }
 
 namespace {
@@ -77,10 +80,9 @@ Bicubic combined(double p, const Bicubic& a, double q, const Bicubic& b) {
 
 /// Both polynomials combined such that their slopes are about 1, 0 and 0, 1. Nothing where the line
 /// runs along the piece, as far as can be told.
-std::optional<NearIdentity> straightened(const Piece& piece, const Depth& depth) {
-  const auto along = depth.at(piece.at(0.5, 0.5));
-  const Vec3 u{piece.a.middle_slope(0), piece.b.middle_slope(0), along.along_u * piece.width_u};
-  const Vec3 v{piece.a.middle_slope(1), piece.b.middle_slope(1), along.along_v * piece.width_v};
+std::optional<NearIdentity> straightened(const Piece& piece, double depth_u, double depth_v) {
+  const Vec3 u{piece.a.middle_slope(0), piece.b.middle_slope(0), depth_u * piece.width_u};
+  const Vec3 v{piece.a.middle_slope(1), piece.b.middle_slope(1), depth_v * piece.width_v};
   const double determinant = u.x * v.y - u.y * v.x, inverse = 1 / determinant;
   if (!(std::abs(determinant) > kLeastSine * length(u) * length(v))) return std::nullopt;
   NearIdentity f{combined(v.y * inverse, piece.a, -v.x * inverse, piece.b),
@@ -103,29 +105,38 @@ void add_place(std::vector<Place>& places, const Place& place) {
 /// Whether a piece that is a point as seen along the line is one: an edge that is shrunk to it.
 bool is_point(const Piece& piece, const Depth& depth) {
   constexpr double kFar = 1e-9;
-  const double middle = depth.at(piece.at(0.5, 0.5)).value;
+  const double middle = depth.at(piece.at(0.5, 0.5));
   for (const double x : {0, 1}) {
     for (const double y : {0, 1}) {
-      if (std::abs(depth.at(piece.at(x, y)).value - middle) >= kFar) return false;
+      if (std::abs(depth.at(piece.at(x, y)) - middle) >= kFar) return false;
     }
   }
   return true;
 }
 
-/// Whether it is known where the piece has its zeros, one at most; adds that.
-bool decided(const Piece& piece, const Depth& depth, std::vector<Place>& places) {
+/// Adds the zero of a piece that has one at most. Of others the axis, 0 or 1, along which to halve
+/// them.
+std::optional<int> axis_if_undecided(const Piece& piece, const Depth& depth, double depth_u,
+                                     double depth_v, std::vector<Place>& places) {
   if (piece.a.largest() < kHair && piece.b.largest() < kHair) {
     if (is_point(piece, depth)) add_place(places, piece.at(0.5, 0.5));
-    return true;
+    return std::nullopt;
   }
-  const auto f = straightened(piece, depth);
-  if (!f) return false;
-  if (!f->x.may_vanish(f->slack_x) || !f->y.may_vanish(f->slack_y)) return true;
-  if (!(f->deviation <= NearIdentity::kMost)) return false;
-  Place zero{0.5, 0.5};
-  const NearIdentity::Zeros zeros = f->search(zero);
-  if (zeros == NearIdentity::Zeros::one) add_place(places, piece.at(zero.u, zero.v));
-  return zeros != NearIdentity::Zeros::unknown;
+  const auto f = straightened(piece, depth_u, depth_v);
+  if (!f) {
+    const auto length = [&](int axis) {
+      return piece.a.slope_deviation(axis, 0) + piece.b.slope_deviation(axis, 0);
+    };
+    return length(0) >= length(1) ? 0 : 1;
+  }
+  if (!f->x.may_vanish(f->slack_x) || !f->y.may_vanish(f->slack_y)) return std::nullopt;
+  if (f->deviation <= NearIdentity::kMost) {
+    Place zero{0.5, 0.5};
+    const NearIdentity::Zeros zeros = f->search(zero);
+    if (zeros == NearIdentity::Zeros::one) add_place(places, piece.at(zero.u, zero.v));
+    if (zeros != NearIdentity::Zeros::unknown) return std::nullopt;
+  }
+  return unevenness(f->x, f->y, 0) >= unevenness(f->x, f->y, 1) ? 0 : 1;
 }
 
 }  // namespace
@@ -135,21 +146,20 @@ void add_common_zeros(const Bicubic& a, const Bicubic& b, const Depth& depth,
   thread_local std::vector<Piece> pieces, halves;
   pieces.assign(1, {a, b, {0, 0}, 1, 1});
   if (!pieces.front().may_vanish()) return;
+  const double depth_u = depth.scaled.slope_deviation(0, 0);
+  const double depth_v = depth.scaled.slope_deviation(1, 0);
   for (int i = 0; i < kMostHalvings && pieces.size() <= kMostPieces; ++i) {
     halves.clear();
     for (const Piece& piece : pieces) {
-      if (decided(piece, depth, places)) continue;
-      const auto length = [&](int axis) {
-        return piece.a.slope_deviation(axis, 0) + piece.b.slope_deviation(axis, 0);
-      };
-      const int axis = length(0) >= length(1) ? 0 : 1;
-      const auto of_a = piece.a.split(axis, 0.5), of_b = piece.b.split(axis, 0.5);
+      const auto axis = axis_if_undecided(piece, depth, depth_u, depth_v, places);
+      if (!axis) continue;
+      const auto of_a = piece.a.split(*axis, 0.5), of_b = piece.b.split(*axis, 0.5);
       Piece half = piece;
-      (axis == 0 ? half.width_u : half.width_v) *= 0.5;
+      (*axis == 0 ? half.width_u : half.width_v) *= 0.5;
       for (std::size_t k = 0; k < 2; ++k) {
         half.a = of_a[k], half.b = of_b[k];
         if (half.may_vanish()) halves.push_back(half);
-        (axis == 0 ? half.corner.u : half.corner.v) += axis == 0 ? half.width_u : half.width_v;
+        (*axis == 0 ? half.corner.u : half.corner.v) += *axis == 0 ? half.width_u : half.width_v;
       }
     }
     pieces.swap(halves);

@@ -25,12 +25,15 @@ struct NearIdentity {
   Zeros search(Place& place) const;
 };
 
+/// How uneven the slopes of such polynomials are in a way that halving along that axis mends.
+double unevenness(const Bicubic& x, const Bicubic& y, int axis);
+
 /// How far along a line a patch is.
 struct Depth {
   Bicubic scaled;  ///< times the weight
   Bicubic weight;  ///< more than 0
 
-  Bicubic::ValueAndSlopes at(const Place& place) const;
+  double at(const Place& place) const;
 };
 
 /// How far from 0 a polynomial may be that counts as zero, where patches are about of size 1.

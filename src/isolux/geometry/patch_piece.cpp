@@ -92,14 +92,13 @@ bool PatchPiece::flat() const {
 }
 
 int PatchPiece::bent_axis() const {
-  const double x_tilt = kSteep * length(x_axis_), y_tilt = kSteep * length(y_axis_);
-  const auto unevenness = [&](int axis) {
-    const auto second = [&](const Bicubic& f, int other) { return f.largest_second(axis, other); };
-    return std::max(second(x_, 0) + x_tilt * second(h_, 0),
-                    second(y_, 0) + y_tilt * second(h_, 0)) +
-           std::max(second(x_, 1) + x_tilt * second(h_, 1), second(y_, 1) + y_tilt * second(h_, 1));
+  Bicubic x_tilt = h_, y_tilt = h_;
+  for (double& c : x_tilt.c) c *= kSteep * length(x_axis_);
+  for (double& c : y_tilt.c) c *= kSteep * length(y_axis_);
+  const auto uneven = [&](int axis) {
+    return std::max(unevenness(x_, y_, axis), unevenness(x_tilt, y_tilt, axis));
   };
-  return unevenness(0) >= unevenness(1) ? 0 : 1;
+  return uneven(0) >= uneven(1) ? 0 : 1;
 }
 
 void PatchPiece::find(const Ray& line, std::vector<Place>& places) const {
@@ -140,8 +139,12 @@ void PatchPiece::search(const Ray& line, std::vector<Place>& places) const {
     for (std::size_t i = 0; i < 16; ++i) f.c[i] -= dot(axis, from) * weight_.c[i];
     return f;
   };
-  const Frame frame(line.direction);
-  add_common_zeros(along(frame.u), along(frame.v), {along(line.direction), weight_}, places);
+  // Across the line one along the piece and one off it, since that shows soonest where it passes
+  // by.
+  const Vec3& d = line.direction;
+  const Vec3 product = cross(d, normal_);
+  const Vec3 across = length(product) > 0.1 ? normalized(product) : Frame(d).u;
+  add_common_zeros(along(across), along(cross(d, across)), {along(d), weight_}, places);
 }
 
 Vec3 PatchPiece::point(const Place& place) const {
