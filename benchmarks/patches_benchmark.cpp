@@ -1,4 +1,5 @@
-// Rays to curved surfaces: a sphere of 32 Bézier patches, and a true one. Items are rays.
+// Rays to curved surfaces: a sphere of Bézier patches and a bent one, beside a true sphere. Items
+// are rays.
 
 #include <benchmark/benchmark.h>
 
@@ -22,7 +23,8 @@ ShapePtr globe() {
   std::vector<Bezier::Points> patches;
   for (int quarter = 0; quarter < 4; ++quarter) {
     const double c = std::array{1, 0, -1, 0}[quarter], s = std::array{0, 1, 0, -1}[quarter];
-    const Vec3 round[4] = {{c, s, 0}, {c - k * s, s + k * c, 0}, {k * c - s, k * s + c, 0}, {-s, c, 0}};
+    const Vec3 round[4] = {
+        {c, s, 0}, {c - k * s, s + k * c, 0}, {k * c - s, k * s + c, 0}, {-s, c, 0}};
     Bezier::Points upper, lower;
     for (std::size_t j = 0; j < 4; ++j) {
       for (const Vec3& p : round) {
@@ -39,7 +41,8 @@ ShapePtr globe() {
 ShapePtr sail() {
   const double heights[16] = {0, 0, 0, 1, 0, 1.3, 0.7, 0, 0, 1.7, -0.7, 0.7, 0, 0, 0, 0};
   Bezier::Points points;
-  for (int i = 0; i < 16; ++i) points.push_back({(i % 4 - 1.5) / 1.5, (i / 4 - 1.5) / 1.5, 0.5 * heights[i]});
+  for (int i = 0; i < 16; ++i)
+    points.push_back({(i % 4 - 1.5) / 1.5, (i / 4 - 1.5) / 1.5, 0.5 * heights[i]});
   return std::make_shared<Bezier>(std::vector<Bezier::Points>{points});
 }
 
@@ -65,7 +68,8 @@ void nearest(benchmark::State& state, ShapePtr (*make)()) {
   const RayCaster rays(scene);
   const auto all = segments();
   for (auto _ : state) {
-    for (const Segment& s : all) benchmark::DoNotOptimize(rays.nearest({s.from, s.to - s.from}, {0, 1}));
+    for (const Segment& s : all)
+      benchmark::DoNotOptimize(rays.nearest({s.from, s.to - s.from}, {0, 1}));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }

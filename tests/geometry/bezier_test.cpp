@@ -165,6 +165,49 @@ TEST(BezierTest, NoLineSlipsThroughASeam) {
   }
 }
 
+// The surface is cut into pieces: as many hits as the patch has in one piece, also through the
+// cuts.
+TEST(BezierTest, PiecesHaveTheHitsOfThePatch) {
+  Random random(5);
+  for (int round = 0; round < 20; ++round) {
+    const Points points = random_patch(random, 2 + round % 4);
+    const Bezier shape({points});
+    EXPECT_GT(shape.part_count(), 1u);
+    RationalPatch whole;
+    for (std::size_t i = 0; i < 16; ++i) {
+      for (int axis = 0; axis < 3; ++axis) whole.part[axis].c[i] = points[i][axis];
+      whole.part[3].c[i] = 1;
+    }
+    const PatchPiece piece(whole);
+    for (int k = 0; k < 200; ++k) {
+      const Ray ray = random_line(random, shape.bounds().center(), 1.5, 5);
+      std::vector<Place> places;
+      piece.find(ray, places);
+      EXPECT_EQ(hits_of(shape, ray).size(), places.size());
+    }
+    for (int k = 0; k <= 200; ++k) {
+      const Vec3 d = random_direction(random);
+      const double cut = 0.4937, along = k / 200.0;
+      for (const Vec3& p : {point_of(points, cut, along), point_of(points, along, cut * cut)}) {
+        EXPECT_FALSE(hits_of(shape, {p - d * 7, d}).empty());
+      }
+    }
+  }
+}
+
+// z = x²: a line at the height ε over the valley meets it at ±√ε, one below it nowhere.
+TEST(BezierTest, GrazingLines) {
+  const double x[4] = {-1, -1.0 / 3, 1.0 / 3, 1}, z[4] = {1, -1.0 / 3, -1.0 / 3, 1};
+  const Bezier valley({patch([&](int i, int j) { return Vec3{x[i], j - 1.5, z[i]}; })});
+  for (double height = 0.1; height > 1e-11; height *= 0.3) {
+    const Hits hits = hits_of(valley, {{-5, 0.1, height}, {1, 0.01, 0}});
+    ASSERT_EQ(hits.size(), 2u) << height;
+    EXPECT_NEAR(hits[0].point.x, -std::sqrt(height), 1e-15 / height + 1e-13);
+    EXPECT_NEAR(hits[1].point.x, std::sqrt(height), 1e-15 / height + 1e-13);
+    EXPECT_TRUE(hits_of(valley, {{-5, 0.1, -height}, {1, 0.01, 0}}).empty());
+  }
+}
+
 // Eight patches whose poles are edges shrunk to a point; within 0.06 % of a unit sphere.
 std::vector<Points> globe() {
   const double k = 4.0 / 3 * (std::sqrt(2.0) - 1);
