@@ -44,6 +44,10 @@ inline constexpr double kLeastSine = 1e-12;
 /// Adds the places where a and b, the distances of a patch off a line in two directions, are zero;
 /// all of them, each once. Where the line runs within the patch, some or none. `depth` is along
 /// the line, in the same unit.
+///
+/// Pieces of the patch whose control points show that there is none are dropped, those that have
+/// one at most are searched by Newton's method, all others halved (subdivision with the convex
+/// hull, as in Nishita, Sederberg and Kakimoto 1990).
 void add_common_zeros(const Bicubic& a, const Bicubic& b, const Depth& depth,
                       std::vector<Place>& places);
 

@@ -24,13 +24,13 @@ struct RationalPatch {
   std::array<RationalPatch, 2> split(int axis, double t) const;
 };
 
-/// A piece of a patch, and how lines find where they meet it: the lengths are about 1.
+/// A piece of a patch, of about the size 1 or smaller, and how lines find where they meet it.
 ///
-/// It is known in a frame of its own, oblique: where the tangents of its middle are the first two
-/// axes and the normal the third. In that a line has a place (x, y) for each height, and meets the
-/// piece where two polynomials are zero. Most lines pass by the box around the piece in its own
-/// frame. For others, the control points tell for which directions a line has one hit at most: then
-/// Newton's method finds that; the remaining lines, which graze the piece, search it.
+/// It has an oblique frame of its own: the tangents in its middle are the first two axes, the
+/// normal there is the third. In that frame a line has a place (x, y) for each height, and meets
+/// the piece where two polynomials are zero. Most lines pass by the box around the piece in its
+/// frame. For the others, bounds found once tell whether the direction has one hit at most, which
+/// Newton's method then finds; only lines that graze the piece cut it into smaller ones.
 class PatchPiece {
  public:
   explicit PatchPiece(const RationalPatch& patch);
