@@ -77,8 +77,8 @@ TEST(MgfError, ASceneWithoutSurfaces) {
 }
 
 TEST(MgfError, HugeCountsAreRefused) {
-  EXPECT_THAT(mgf_refusal(kVertices + "xf -a 1001 -t 1 0 0 -a 1000 -t 0 1 0\nsph o 1\nxf\n"),
-              EndsWith("the scene has more than 1000000 surfaces"));
+  EXPECT_THAT(mgf_refusal(kVertices + "xf -a 501 -t 1 0 0 -a 500 -t 0 1 0\nsph o 1\nxf\n"),
+              EndsWith("the scene has more than 250000 surfaces"));
   const std::string array = "xf -a 1000 -t 1 0 0 -a 1000 -t 0 1 0\nxf\n";
   EXPECT_THAT(mgf_refusal(kVertices + array + array + array), HasSubstr("too many instances"));
   std::string nest = kVertices;

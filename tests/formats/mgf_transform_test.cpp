@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 
 #include <numbers>
+#include <set>
 
 #include "formats/mgf_text.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/scene/scene.h"
 
 namespace isolux {
@@ -109,6 +111,40 @@ TEST(MgfTransform, UnevenScalesMakeEllipsoidsAndStretchFaces) {
   expect_near(eggs.scene.objects.at(2).shape->bounds().lower, {9, -1, -3});
   const Object face = only_object(kVertices + "xf -sx 3\nf o x xy y\nxf\n");
   EXPECT_DOUBLE_EQ(face.shape->area().value(), 3);
+}
+
+TEST(MgfTransform, ArraysShareWhatTakesManyNumbers) {
+  const auto distinct = [](const std::string& entity) {
+    std::set<const Shape*> shapes;
+    const auto file =
+        read_text(kVertices + "xf -rz 30 -a 5 -t 2 0 0 -i 1 -mx\n" + entity + "\nxf\n");
+    for (const Object& object : file.scene.objects) {
+      shapes.insert(original(object.shape).shape.get());
+    }
+    return shapes.size();
+  };
+  EXPECT_EQ(distinct("prism o x y 1"), 1u);
+  EXPECT_EQ(distinct("prism o x y -1"), 1u);
+  EXPECT_EQ(distinct("f o x xy z"), 1u);
+  EXPECT_EQ(distinct("f o x xy y"), 5u);
+  EXPECT_EQ(distinct("sph o 1"), 5u);
+}
+
+TEST(MgfTransform, SharedShapesStandWhereTheirOwnWould) {
+  const std::string array = "xf -rz 30 -a 3 -t 2 0 0 -i 1 -mx\nprism o x y 0.5\nxf\n";
+  const std::string third = "xf -rz 30 -i 2 -t 2 0 0 -i 1 -mx\nprism o x y 0.5\nxf\n";
+  const auto shared_shape = read_text(kVertices + array).scene.objects.at(2).shape;
+  const auto own_shape = only_object(kVertices + third).shape;
+  const Shape &shared = *shared_shape, &alone = *own_shape;
+  EXPECT_NEAR(volume_of(shared), 0.25, 1e-12);
+  const Hits hits = hits_along(alone, {-4.1, 0.45, 5}, {0, 0, -1});
+  const Hits same = hits_along(shared, {-4.1, 0.45, 5}, {0, 0, -1});
+  ASSERT_EQ(hits.size(), 2u);
+  ASSERT_EQ(same.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    expect_near(same[i].point, hits[i].point);
+    expect_near(same[i].normal, hits[i].normal);
+  }
 }
 
 TEST(MgfTransform, AHundredThousandObjects) {

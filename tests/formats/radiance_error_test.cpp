@@ -58,7 +58,7 @@ TEST(RadianceError, GivesTheExactPlaceAndOneLine) {
       {"!genprism m p 3 0 0 1 0 0 1 -r 2", "6:2: the edges of the prism are rounder"},
       {"!genprism m p corners", "6:15: there is no file 'corners'"},
       {"!genblinds m b 1 1 1 0 0", "6:22: expected a whole number from 1 to 10000, not '0'"},
-      {"!genrev m r t 1 0", "6:17: expected a whole number from 1 to 1000000, not '0'"},
+      {"!genrev m r t 1 0", "6:17: expected a whole number from 1 to 250000, not '0'"},
       {"!genrev m r t -1 4", "6:15: the radius must not be negative"},
       {"!genrev m r '2*(t' 1 4", "6:14: '': ')' must stand here"},
       {"!genrev m r '2**t' 1 4", "6:14: '*t': a number or a name must stand here"},
@@ -103,15 +103,16 @@ TEST(RadianceError, ASceneWithoutSurfaces) {
 
 TEST(RadianceError, HugeCountsAreRefused) {
   EXPECT_THAT(radiance_refusal("!genbox m b 1 1 1 | xform -a 1000 -t 2 0 0 -a 1000 -t 0 2 0\n"),
-              EndsWith("the scene has more than 1000000 surfaces"));
+              EndsWith("the scene has more than 250000 surfaces"));
   EXPECT_THAT(
       radiance_refusal("!genbox m b 1 1 1 | xform -a 100000 -t 2 0 0 | xform -a 100 -t 0 2 0\n"),
       HasSubstr("too many instances"));
-  EXPECT_THAT(radiance_refusal("!gensurf m s s t 0 700 700 | xform -a 2 -t 1 0 0\n"),
-              EndsWith("the scene has more than 1000000 surfaces"));
+  const std::string sheet = "!gensurf m s s t 0 700 700\n";
+  EXPECT_THAT(radiance_refusal(sheet + sheet),
+              EndsWith("the meshes of this scene have more than 1000000 triangles"));
   std::string expression = "t";
   for (int i = 0; i < 1000; ++i) expression += "+t";
-  EXPECT_THAT(radiance_refusal("!genrev m r " + expression + " 1 1000000\n"),
+  EXPECT_THAT(radiance_refusal("!genrev m r " + expression + " 1 250000\n"),
               EndsWith("the expressions of this scene take too long for so many points"));
   EXPECT_THAT(radiance_refusal("!genrev m r '" + std::string(3000, '(') + "' 1 1\n"),
               HasSubstr("nested too deep"));

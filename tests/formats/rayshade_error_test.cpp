@@ -98,7 +98,7 @@ TEST(RayshadeErrors, WhateverIsTooMuchIsRefused) {
     names += fmt::format("name n{} list object n{} object n{} end\n", i, i - 1, i - 1);
     macros += fmt::format("#define M{} M{} M{}\n", i, i + 1, i + 1);
   }
-  EXPECT_THAT(rayshade_refusal(names + "object n59"), HasSubstr("more than a million objects"));
+  EXPECT_THAT(rayshade_refusal(names + "object n59"), HasSubstr("more than 250000 objects"));
   EXPECT_THAT(rayshade_refusal(macros + "M1"), HasSubstr("the macros make more than 64 MiB"));
   for (int i = 1; i < 200; ++i) {
     chain += fmt::format("name n{} object n{}\n", i, i - 1);

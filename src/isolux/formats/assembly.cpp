@@ -16,9 +16,8 @@
 namespace isolux {
 namespace {
 
-constexpr std::size_t kMostItems = 2'000'000;  // points and triangles of all meshes
+constexpr std::size_t kMostItems = 2'000'000;          // points and triangles of all meshes
 constexpr std::size_t kMostBeforeMending = 2'000'000;  // of a mesh, before it is mended
-constexpr std::size_t kMostObjects = 250'000;
 constexpr double kRoom = 0.5;  // of the scene's size: a room is that large at least
 constexpr std::size_t kMostWitnesses = 64;
 

@@ -7,9 +7,9 @@ namespace isolux {
 // What readers of scenes make at most, so that a small file can't ask for more than there is.
 
 inline constexpr std::size_t kLargestMainFile = std::size_t{64} << 20;  ///< of a main file
-inline constexpr std::size_t kMostSurfaces = 1'000'000;
+inline constexpr std::size_t kMostObjects = 250'000;
 inline constexpr double kFarthest = 1e9;             ///< m, of points of meshes along each axis
-inline constexpr std::size_t kMostMaps = 2'000'000;  ///< of all transforms together
+inline constexpr std::size_t kMostMaps = 1'000'000;  ///< of all transforms together
 inline constexpr double kMostCornerPairs = 1e8;      ///< of all faces: the effort to make them
 inline constexpr double kMostReflectance = 0.999;    ///< larger ones are reduced to it
 inline constexpr double kMostExitance = 1e12;        ///< lm/m²

@@ -7,6 +7,7 @@
 #include "isolux/geometry/reversed.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
+#include "isolux/scene/shape_writer.h"
 
 namespace isolux {
 namespace {
@@ -94,6 +95,12 @@ PlacedShape placed_torus(const Vec3& center, const Vec3& axis, double inner_radi
 
 PlacedShape placed_face(const Region& region) {
   return [region](const Affine& map) { return face_shape(placed(region, map)); };
+}
+
+PlacedShape shared(PlacedShape surface) {
+  const ShapePtr original = surface(Affine{});
+  if (!original || !is_worth_a_name(*original)) return surface;
+  return [original](const Affine& map) { return std::make_shared<Instance>(original, map); };
 }
 
 }  // namespace isolux

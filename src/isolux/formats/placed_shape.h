@@ -28,6 +28,10 @@ PlacedShape placed_torus(const Vec3& center, const Vec3& axis, double inner_radi
                          double outer_radius, bool inward);
 PlacedShape placed_face(const Region& region);
 
+/// The same for a surface that stands in several places: where it takes more numbers than a
+/// placement does, all of these show one shape.
+PlacedShape shared(PlacedShape surface);
+
 /// Whether that is too short to be told from 0.
 bool is_short(double length);
 

@@ -163,6 +163,13 @@ void append_transform(std::string& text, const Affine& map, std::size_t indent) 
 
 }  // namespace
 
+bool is_worth_a_name(const Shape& shape) {
+  const ShapeDescription description = shape.describe();
+  const auto& operands = description.operands;
+  return size_of(description.fields) > kPlacement || operands.size() > 1 ||
+         (operands.size() == 1 && is_worth_a_name(*operands.front()));
+}
+
 /// A shape, and the shapes that it is made of.
 struct ShapeWriter::Node {
   ShapeDescription shape;

@@ -15,6 +15,9 @@ inline constexpr std::size_t kLineWidth = 100;  ///< bytes, where a line can be 
 /// "{a: 1, b: 2}"
 std::string flow_map(const std::vector<std::pair<std::string, std::string>>& entries);
 
+/// Whether a shape takes more room than it takes to say where it stands.
+bool is_worth_a_name(const Shape& shape);
+
 /// Writes the shapes of a scene in the native format. Those that stand in several places, and take
 /// more room than it takes to say where, have names and are written once.
 class ShapeWriter {

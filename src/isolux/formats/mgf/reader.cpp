@@ -260,8 +260,8 @@ void Reader::add_surface(const Statement& s) {
   const std::vector<Affine> here(1);
   const std::vector<Affine>& maps = transforms_.empty() ? here : transforms_.back().maps;
   auto& objects = result_.scene.objects;
-  if (objects.size() + maps.size() > kMostSurfaces) {
-    s.fail(0, fmt::format("the scene has more than {} surfaces", kMostSurfaces));
+  if (objects.size() + maps.size() > kMostObjects) {
+    s.fail(0, fmt::format("the scene has more than {} surfaces", kMostObjects));
   }
   const auto corners = static_cast<double>(surface.corners);
   corner_pairs_ += corners * corners * static_cast<double>(maps.size());
@@ -272,25 +272,26 @@ void Reader::add_surface(const Statement& s) {
   findings_.smoothed += surface.smoothed;
   const UsedMaterial& material = current_material();
   const bool emits = material.exitance != Rgb{};
-  for (const Affine& map : maps) {
-    Object object;
-    try {
-      object.shape = surface.shape(map);
-    } catch (const InputError& error) {
-      s.fail(0, error.what());
+  try {
+    const PlacedShape shape = maps.size() > 1 ? shared(surface.shape) : surface.shape;
+    for (const Affine& map : maps) {
+      Object object;
+      object.shape = shape(map);
+      if (!object.shape) {
+        ++findings_.empty;
+        continue;
+      }
+      object.name = next_name(s);
+      object.material = material.number;
+      if (surface.can_emit) object.exitance = material.exitance;
+      const bool open_on_both = materials_.current().sides == 2 && !object.shape->solid();
+      object.sides = open_on_both && !emits ? Sides::both : Sides::front;
+      findings_.two_sided_lights += emits && open_on_both;
+      findings_.dark_lights += emits && !surface.can_emit;
+      objects.push_back(std::move(object));
     }
-    if (!object.shape) {
-      ++findings_.empty;
-      continue;
-    }
-    object.name = next_name(s);
-    object.material = material.number;
-    if (surface.can_emit) object.exitance = material.exitance;
-    const bool open_on_both = materials_.current().sides == 2 && !object.shape->solid();
-    object.sides = open_on_both && !emits ? Sides::both : Sides::front;
-    findings_.two_sided_lights += emits && open_on_both;
-    findings_.dark_lights += emits && !surface.can_emit;
-    objects.push_back(std::move(object));
+  } catch (const InputError& error) {
+    s.fail(0, error.what());
   }
 }
 

@@ -87,8 +87,8 @@ void Builder::add_object(const Node& node, const Affine& map, Color color) {
   Object object;
   object.shape = solid(node, map, 0);
   if (!object.shape) return;
-  if (scene_.objects.size() == kMostSurfaces) {
-    context_.tree.fail(node.place, fmt::format("more than {} solids", kMostSurfaces));
+  if (scene_.objects.size() == kMostObjects) {
+    context_.tree.fail(node.place, fmt::format("more than {} solids", kMostObjects));
   }
   if (!color) {
     std::vector<Color> colors;

@@ -18,8 +18,8 @@ constexpr double kLevel = 1e-9;        ///< m: as good as no difference
 /// A word that says how many there are, which may be an expression.
 int count(const Statement& s, std::size_t i) {
   const double value = std::floor(Expression(s, i, {})({}) + 0.5);
-  if (value >= 1 && value <= kMostSurfaces) return static_cast<int>(value);
-  s.fail(i, fmt::format("expected a whole number from 1 to {}, not {}", kMostSurfaces,
+  if (value >= 1 && value <= kMostObjects) return static_cast<int>(value);
+  s.fail(i, fmt::format("expected a whole number from 1 to {}, not {}", kMostObjects,
                         in_quotes(s.word(i))));
 }
 
@@ -122,8 +122,8 @@ std::vector<Surface> generate_surface(const Statement& s, Surroundings& around) 
   const bool inward = read_options(s, 8, around.notes, "-i");
   const auto functions = expressions(s, 3, 6, {"s", "t"});
   const int m = count(s, 6), n = count(s, 7);
-  if (2.0 * m * n > kMostSurfaces) {
-    s.fail(6, fmt::format("the surface has more than {} triangles", kMostSurfaces));
+  if (2.0 * m * n > kMostTriangles) {
+    s.fail(6, fmt::format("the surface has more than {} triangles", kMostTriangles));
   }
   spend(s, functions, (m + 1.0) * (n + 1.0), around.effort);
   std::vector<Vec3> points;
@@ -153,7 +153,7 @@ std::vector<Surface> generate_surface(const Statement& s, Surroundings& around) 
     }
   }
   Surface surface;
-  surface.pieces = std::max<std::size_t>(1, triangles.size());
+  surface.triangles = triangles.size();
   surface.shape = [=](const Affine& map) -> std::shared_ptr<const Shape> {
     if (triangles.empty()) return nullptr;
     std::vector<Vec3> placed;

@@ -78,13 +78,19 @@ void Reader::add(const Primitive& p, const Context& context) {
   }
 }
 
-/// Counts surfaces, and the corners of each: whether they are kept or not, they take time.
-void Reader::require_room(std::size_t count, std::size_t corners) {
-  surfaces_ += count;
-  if (surfaces_ > kMostSurfaces) {
-    throw InputError(fmt::format("the scene has more than {} surfaces", kMostSurfaces));
+/// Counts surfaces, and what they are made of: whether they are kept or not, they take time.
+void Reader::require_room(const Surface& surface, std::size_t places) {
+  surfaces_ += places;
+  if (surfaces_ > kMostObjects) {
+    throw InputError(fmt::format("the scene has more than {} surfaces", kMostObjects));
   }
-  corner_pairs_ += static_cast<double>(corners) * static_cast<double>(corners * count);
+  triangles_ += surface.triangles;
+  if (triangles_ > kMostTriangles) {
+    throw InputError(
+        fmt::format("the meshes of this scene have more than {} triangles", kMostTriangles));
+  }
+  corner_pairs_ +=
+      static_cast<double>(surface.corners) * static_cast<double>(surface.corners * places);
   if (corner_pairs_ > kMostCornerPairs) {
     throw InputError(
         "the polygons of this scene have too many corners; cut them into smaller ones");
@@ -93,7 +99,7 @@ void Reader::require_room(std::size_t count, std::size_t corners) {
 
 void Reader::add_surface(const Surface& surface, std::string_view word, const Finish& finish,
                          const Context& context) {
-  require_room(surface.pieces * context.maps.size(), surface.corners);
+  require_room(surface, context.maps.size());
   if (!finish.solid) {
     ++left_out_;
     return;
@@ -104,9 +110,10 @@ void Reader::add_surface(const Surface& surface, std::string_view word, const Fi
   const bool emits = max_channel(finish.exitance) > 0;
   const std::uint32_t material = material_number(finish);
   const std::string name = context.prefixed(word);
+  const PlacedShape shape = context.maps.size() > 1 ? shared(surface.shape) : surface.shape;
   for (const Affine& map : context.maps) {
     Object object;
-    object.shape = surface.shape(map);
+    object.shape = shape(map);
     if (!object.shape) {
       notes_.add("surfaces without area: left out");
       continue;
@@ -150,7 +157,7 @@ void Reader::add_source(const Primitive& p, const Finish& finish, const Context&
     p.numbers.fail(0, fmt::format("more than {:g} lx would come from here", kMostIlluminance));
   }
   try {
-    require_room(context.maps.size(), 0);
+    require_room({}, context.maps.size());
   } catch (const InputError& error) {
     p.head.fail(0, error.what());
   }

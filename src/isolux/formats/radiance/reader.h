@@ -48,7 +48,7 @@ class Reader {
                    const Context& context);
   void add_source(const Primitive& primitive, const Finish& finish, const Context& context);
   void add_instance(const Primitive& primitive, const Context& context);
-  void require_room(std::size_t count, std::size_t corners);
+  void require_room(const Surface& surface, std::size_t places);
   std::uint32_t material_number(const Finish& finish);
 
   // Commands, in commands.cpp.
@@ -74,7 +74,7 @@ class Reader {
   NumberedNames object_names_, material_names_;
   std::unordered_map<std::string, std::uint32_t> material_numbers_;  ///< by name and reflectance
   std::size_t left_out_ = 0;                                         ///< surfaces
-  std::size_t surfaces_ = 0, maps_made_ = 0;
+  std::size_t surfaces_ = 0, triangles_ = 0, maps_made_ = 0;
   double corner_pairs_ = 0;
   bool has_own_view_ = false;  ///< a view of the scene's own name, or of its project
 };

@@ -69,7 +69,7 @@ constexpr Reader kReaders[] = {
 
 Surface polygon(const std::vector<Vec3>& corners) {
   const Region region = without_seams(corners);
-  return {placed_face(region), corners.size(), 1, region.outline.empty() || is_flat(region)};
+  return {placed_face(region), corners.size(), 0, region.outline.empty() || is_flat(region)};
 }
 
 const std::vector<std::string_view>& surface_types() {

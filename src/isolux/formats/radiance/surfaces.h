@@ -8,12 +8,14 @@
 
 namespace isolux::radiance {
 
+inline constexpr std::size_t kMostTriangles = 1'000'000;  ///< of all meshes
+
 /// A surface, as read.
 struct Surface {
   PlacedShape shape;
-  std::size_t corners = 0;  ///< of a polygon
-  std::size_t pieces = 1;   ///< triangles of a mesh
-  bool flat = true;         ///< its corners lie in a plane
+  std::size_t corners = 0;    ///< of a polygon
+  std::size_t triangles = 0;  ///< of a mesh
+  bool flat = true;           ///< its corners lie in a plane
 };
 
 /// Throws InputError, without a place, where the polygon falls apart or has more than 1000 corners.

@@ -2,14 +2,14 @@
 
 #include <numbers>
 
+#include "isolux/formats/limits.h"
 #include "isolux/formats/rayshade/parser.h"
 #include "isolux/scene/spelling.h"
 
 namespace isolux::rayshade {
 namespace {
 
-constexpr std::size_t kMostLeaves = 1'000'000;  ///< objects in a scene
-constexpr int kDeepest = 100;                   ///< of groups and references in each other
+constexpr int kDeepest = 100;  ///< of groups and references in each other
 
 struct GroupKind {
   std::string_view word;
@@ -163,8 +163,8 @@ void Parser::finish(Node& node) {
     node.leaves += part->leaves;
     node.depth = std::max(node.depth, part->depth + 1);
     node.has_planes |= part->has_planes;
-    if (node.leaves > kMostLeaves) {
-      fail(node.place, "more than a million objects, counting each mention");
+    if (node.leaves > kMostObjects) {
+      fail(node.place, fmt::format("more than {} objects, counting each mention", kMostObjects));
     }
   }
   node.has_planes |= std::holds_alternative<Plane>(node.geometry);
