@@ -4,6 +4,7 @@
 
 #include "formats/radiance_text.h"
 #include "formats/temporary_folder.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/geometry/shape_description.h"
 
 namespace isolux {
@@ -258,6 +259,39 @@ TEST(RadianceCommand, InstancesReadTheDescriptionBesideTheOctree) {
   ASSERT_EQ(objects.size(), 6u);
   EXPECT_EQ(objects[0].name, "tree.b");
   expect_near(bounds_of(objects).lower, {5, 0, 0});
+}
+
+TEST(RadianceCommand, MeshesReadTheObjBesideThem) {
+  const std::string tetrahedron =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
+  const auto objects = objects_with(
+      {{"rock.obj", tetrahedron}},
+      "m mesh a 1 rock.rtm 0 0\nm mesh b 7 rock.rtm -t 5 0 0 -s 2 0 0\n"
+      "void light l 0 0 3 1 1 1\nl mesh c 1 rock.rtm 0 0\nm mesh d 3 rock.rtm -a 3 0 0\n");
+  ASSERT_EQ(objects.size(), 6u);
+  EXPECT_EQ(objects[1].name, "b");
+  EXPECT_TRUE(objects[1].shape->solid());
+  EXPECT_EQ(objects[1].sides, Sides::front);
+  EXPECT_NEAR(volume_of({objects[0]}), 1.0 / 6, 1e-12);
+  EXPECT_NEAR(volume_of({objects[1]}), 8.0 / 6, 1e-12);
+  expect_near(objects[1].shape->bounds().upper, {12, 2, 2});
+  for (const std::size_t i : {1u, 3u, 4u, 5u}) {
+    EXPECT_EQ(original(objects[i].shape).shape, objects[0].shape);
+  }
+  EXPECT_TRUE(objects[2].emits());  // the winding of lights is theirs: here they don't agree
+  EXPECT_FALSE(objects[2].shape->solid());
+}
+
+TEST(RadianceCommand, FaultsOfAMeshAreInItsFile) {
+  try {
+    objects_with({{"a.obj", "v 0 0\n"}}, "m mesh a 1 a.rtm 0 0\n");
+    FAIL() << "a vertex of two numbers was read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/a.obj:1:1: "));
+  }
+  EXPECT_THAT(read_radiance_text(kGray + "void mesh a 1 a.rtm 0 0\n!genbox m b 1 1 1\n").notes,
+              ElementsAre("'mesh' left out: without a modifier, the materials in its file are "
+                          "not read"));
 }
 
 TEST(RadianceCommand, UnknownOnesAreLeftOut) {

@@ -10,8 +10,6 @@
 #include "isolux/formats/soup.h"
 #include "isolux/geometry/complement.h"
 #include "isolux/geometry/instance.h"
-#include "isolux/geometry/tessellation.h"
-#include "isolux/geometry/triangle_mesh.h"
 
 namespace isolux {
 namespace {
@@ -63,17 +61,7 @@ std::shared_ptr<const Shape> Assembly::mesh(TriangleSoup soup, bool two_sided) {
   repeated_ += left_out.repeated;
   if (soup.triangles.empty()) return nullptr;
   count_items(soup.points.size() + soup.triangles.size());
-  for (const Vec3& p : soup.points) {
-    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest) continue;
-    throw InputError(fmt::format("a point lies more than {:g} m away", kFarthest));
-  }
-  if (two_sided) agree(soup);
-  auto mesh = std::make_shared<TriangleMesh>(soup.points, soup.triangles);
-  if (two_sided && mesh->unbounded()) {
-    flip(soup);
-    mesh = std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
-  }
-  return mesh;
+  return mesh_of(std::move(soup), two_sided);
 }
 
 std::shared_ptr<const Shape> Assembly::placed(const std::shared_ptr<const Shape>& mesh,

@@ -1,5 +1,7 @@
 #include "isolux/formats/soup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -12,6 +14,7 @@
 #include "isolux/geometry/ear_clipping.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/tessellation.h"
+#include "isolux/geometry/triangle_mesh.h"
 
 namespace isolux {
 namespace {
@@ -260,6 +263,20 @@ void agree(TriangleSoup& soup) {
     if (!closed || volume > 0) continue;
     for (const std::uint32_t i : piece) std::swap(soup.triangles[i][1], soup.triangles[i][2]);
   }
+}
+
+std::shared_ptr<const Shape> mesh_of(TriangleSoup soup, bool two_sided) {
+  for (const Vec3& p : soup.points) {
+    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kFarthest) continue;
+    throw InputError(fmt::format("a point lies more than {:g} m away", kFarthest));
+  }
+  if (two_sided) agree(soup);
+  auto mesh = std::make_shared<TriangleMesh>(soup.points, soup.triangles);
+  if (two_sided && mesh->unbounded()) {
+    flip(soup);
+    mesh = std::make_shared<TriangleMesh>(std::move(soup.points), std::move(soup.triangles));
+  }
+  return mesh;
 }
 
 }  // namespace isolux

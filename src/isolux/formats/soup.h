@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "isolux/geometry/shape.h"
 
 namespace isolux {
@@ -31,5 +33,9 @@ LeftOut weld(TriangleSoup& soup);
 /// The first triangle of any other piece stays as it is; where the piece is closed, it is made to
 /// face outward. Points at the same place are one (see weld()).
 void agree(TriangleSoup& soup);
+
+/// The mesh of a welded soup. With `two_sided`, its winding says nothing: neighbours are made to
+/// agree, and what is closed to face outward. Throws InputError where a point is too far away.
+std::shared_ptr<const Shape> mesh_of(TriangleSoup soup, bool two_sided);
 
 }  // namespace isolux

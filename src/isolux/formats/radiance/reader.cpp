@@ -9,6 +9,8 @@
 #include "isolux/core/error.h"
 #include "isolux/formats/default_camera.h"
 #include "isolux/formats/limits.h"
+#include "isolux/formats/obj/geometry.h"
+#include "isolux/geometry/instance.h"
 #include "isolux/geometry/reversed.h"
 #include "isolux/scene/spelling.h"
 
@@ -63,7 +65,7 @@ void Reader::read_file(const Statement& s, std::size_t i, const Context& context
 void Reader::add(const Primitive& p, const Context& context) {
   if (is_modifier(p.type())) return materials_.define(p);
   if (p.type() == "instance") return add_instance(p, context);
-  if (p.type() == "mesh") return notes_.left_out("mesh", "such files of triangles are not read");
+  if (p.type() == "mesh") return add_mesh(p, context);
   const auto& types = surface_types();
   const bool is_surface = std::find(types.begin(), types.end(), p.type()) != types.end();
   if (!is_surface && p.type() != "source") unknown_type(p);
@@ -168,30 +170,82 @@ void Reader::add_source(const Primitive& p, const Finish& finish, const Context&
   }
 }
 
-/// Reads the description that stands beside an octree, with its extension .rad.
-void Reader::add_instance(const Primitive& p, const Context& context) {
-  if (p.strings.size() < 2) p.strings.fail(0, "an instance has the name of an octree");
+std::vector<Affine> Reader::maps_of(const Primitive& p, const Context& context) {
   std::size_t at = 2;
-  Context inner;
-  inner.maps = placed(p.strings, at, context.maps);
+  std::vector<Affine> maps = placed(p.strings, at, context.maps);
   if (at < p.strings.size()) {
     p.strings.fail(at, fmt::format("{} is no transform", in_quotes(p.strings.word(at))));
   }
+  return maps;
+}
+
+std::optional<SourceText> Reader::open_beside(const Primitive& p, std::string_view extension) {
+  const std::filesystem::path named(p.strings.word(1));
+  try {
+    return includes_.open(std::filesystem::path(named).replace_extension(extension).string());
+  } catch (const InputError&) {
+    notes_.left_out(p.type() == "mesh" ? "mesh" : "instance",
+                    "such files are not read, and what they are made from (.obj of a mesh, .rad of "
+                    "an octree) does not stand beside");
+    return std::nullopt;
+  }
+}
+
+/// Reads the description that stands beside an octree, with its extension .rad.
+void Reader::add_instance(const Primitive& p, const Context& context) {
+  if (p.strings.size() < 2) p.strings.fail(0, "an instance has the name of an octree");
+  Context inner;
+  inner.maps = maps_of(p, context);
   inner.turned_over = context.turned_over;
   inner.prefix = context.prefixed(p.name()) + '.';
   inner.modifier = context.modifier;
   if (!inner.modifier && p.modifier() != "void") inner.modifier = std::string(p.modifier());
-  const std::filesystem::path octree(p.strings.word(1));
-  SourceText source;
-  try {
-    source = includes_.open(std::filesystem::path(octree).replace_extension(".rad").string());
-  } catch (const InputError&) {
-    return notes_.left_out("instance",
-                           "octrees are not read, and no file of that name with the extension .rad "
-                           "stands beside");
-  }
-  read(Scanner(source), inner);
+  const std::optional<SourceText> source = open_beside(p, ".rad");
+  if (!source) return;
+  read(Scanner(*source), inner);
   includes_.close();
+}
+
+/// Reads the polygons that stand beside a mesh, with its extension .obj.
+void Reader::add_mesh(const Primitive& p, const Context& context) {
+  if (p.strings.size() < 2) p.strings.fail(0, "a mesh has the name of a file");
+  const std::string modifier = context.modifier.value_or(std::string(p.modifier()));
+  if (modifier == "void") {
+    return notes_.left_out("mesh", "without a modifier, the materials in its file are not read");
+  }
+  const Finish& finish = materials_.finish_of(modifier);
+  Context inner = context;
+  inner.maps = maps_of(p, context);
+  const bool two_sided = !(max_channel(finish.exitance) > 0);
+  const std::string key = fmt::format("{} {}", two_sided, p.strings.word(1));
+  auto mesh = meshes_.find(key);
+  TriangleSoup soup;
+  if (mesh == meshes_.end()) {
+    const std::optional<SourceText> source = open_beside(p, ".obj");
+    if (!source) return;
+    soup = parse_obj(*source, cutting_);
+    includes_.close();
+  }
+  try {
+    if (mesh == meshes_.end()) {
+      mesh = meshes_.emplace(key, mesh_surface(std::move(soup), two_sided)).first;
+    }
+    add_surface(mesh->second, p.name(), finish, inner);
+  } catch (const InputError& error) {
+    p.head.fail(0, error.what());
+  }
+}
+
+Surface Reader::mesh_surface(TriangleSoup soup, bool two_sided) {
+  weld(soup);
+  triangles_ += soup.triangles.size();
+  require_room({}, 0);
+  if (soup.triangles.empty()) return {[](const Affine&) { return nullptr; }};
+  const auto mesh = mesh_of(std::move(soup), two_sided);
+  return {[mesh](const Affine& map) -> std::shared_ptr<const Shape> {
+    const bool moved = map.linear != Affine{}.linear || map.translation != Vec3{};
+    return moved ? std::make_shared<Instance>(mesh, map) : mesh;
+  }};
 }
 
 SceneFile Reader::finish() {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "isolux/core/affine.h"
@@ -13,6 +14,7 @@
 #include "isolux/formats/radiance/scanner.h"
 #include "isolux/formats/radiance/view.h"
 #include "isolux/formats/scene_file.h"
+#include "isolux/formats/soup.h"
 
 namespace isolux::radiance {
 
@@ -48,6 +50,15 @@ class Reader {
                    const Context& context);
   void add_source(const Primitive& primitive, const Finish& finish, const Context& context);
   void add_instance(const Primitive& primitive, const Context& context);
+  void add_mesh(const Primitive& primitive, const Context& context);
+  /// What is left of the triangles once they are mended.
+  Surface mesh_surface(TriangleSoup soup, bool two_sided);
+  /// The maps of a primitive that places a file.
+  std::vector<Affine> maps_of(const Primitive& primitive, const Context& context);
+  /// Opens the file of that extension beside the one that a primitive names; nothing where there is
+  /// none.
+  [[nodiscard]] std::optional<SourceText> open_beside(const Primitive& primitive,
+                                                      std::string_view extension);
   void require_room(const Surface& surface, std::size_t places);
   std::uint32_t material_number(const Finish& finish);
 
@@ -76,6 +87,8 @@ class Reader {
   std::size_t left_out_ = 0;                                         ///< surfaces
   std::size_t surfaces_ = 0, triangles_ = 0, maps_made_ = 0;
   double corner_pairs_ = 0;
+  std::unordered_map<std::string, Surface> meshes_;  ///< by name, and how they are lit
+  Cutting cutting_;                                  ///< of their polygons
   bool has_own_view_ = false;  ///< a view of the scene's own name, or of its project
 };
 
