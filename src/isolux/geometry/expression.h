@@ -58,7 +58,8 @@ Dual<Number> Expression::operator()(const std::array<Dual<Number>, 3>& variables
   results.resize(steps_.size());
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Step& step = steps_[i];
-    const Dual<Number>&a = results[step.a], &b = results[step.b];
+    const auto a = [&]() -> const Dual<Number>& { return results[step.a]; };
+    const auto b = [&]() -> const Dual<Number>& { return results[step.b]; };
     Dual<Number>& result = results[i];
     switch (step.code) {
       case Code::number:
@@ -68,43 +69,43 @@ Dual<Number> Expression::operator()(const std::array<Dual<Number>, 3>& variables
         result = variables[step.a];
         break;
       case Code::negate:
-        result = -a;
+        result = -a();
         break;
       case Code::add:
-        result = a + b;
+        result = a() + b();
         break;
       case Code::subtract:
-        result = a - b;
+        result = a() - b();
         break;
       case Code::multiply:
-        result = step.a == step.b ? isolux::power(a, 2) : a * b;
+        result = step.a == step.b ? isolux::power(a(), 2) : a() * b();
         break;
       case Code::divide:
-        result = a / b;
+        result = a() / b();
         break;
       case Code::power:
-        result = isolux::power(a, step.b);
+        result = isolux::power(a(), step.b);
         break;
       case Code::sqrt:
-        result = isolux::sqrt(a);
+        result = isolux::sqrt(a());
         break;
       case Code::abs:
-        result = isolux::abs(a);
+        result = isolux::abs(a());
         break;
       case Code::sin:
-        result = isolux::sin(a);
+        result = isolux::sin(a());
         break;
       case Code::cos:
-        result = isolux::cos(a);
+        result = isolux::cos(a());
         break;
       case Code::exp:
-        result = isolux::exp(a);
+        result = isolux::exp(a());
         break;
       case Code::min:
-        result = isolux::min(a, b);
+        result = isolux::min(a(), b());
         break;
       case Code::max:
-        result = isolux::max(a, b);
+        result = isolux::max(a(), b());
         break;
     }
   }
