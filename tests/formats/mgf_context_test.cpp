@@ -116,10 +116,11 @@ TEST(MgfContext, TwoSidedLightsShineFromTheirFrontAlone) {
               ElementsAre(HasSubstr("1 light with emission (ed) from both sides: from the front")));
 }
 
-TEST(MgfContext, ATorusIsDark) {
-  const SceneFile file = read_text(kVertices + "ed 5\ntorus z 1 2\n");
-  EXPECT_FALSE(file.scene.objects.at(0).emits());
-  EXPECT_THAT(file.notes, ElementsAre(HasSubstr("1 light on a torus (ed)")));
+TEST(MgfContext, EverySurfaceCanShine) {
+  for (const std::string entity :
+       {"f o x y", "sph z 1", "cyl o 1 z", "ring z 1 2", "torus z 1 2", "prism o x y 1"}) {
+    EXPECT_TRUE(only_object(kVertices + "sides 1\ned 5\n" + entity + "\n").emits()) << entity;
+  }
 }
 
 TEST(MgfContext, ColoursOfMaterials) {

@@ -23,7 +23,6 @@ std::vector<std::string> notes_of(const Findings& found) {
             "with a colour beyond the range of Rec. 709: mixed with grey of the same luminance");
   notes.add(found.two_sided_lights, "light",
             "with emission (ed) from both sides: from the front alone, the back is black");
-  notes.add(found.dark_lights, "light", "on a torus (ed): left out, it is dark");
   notes.add(found.empty, "surface", "without area: left out");
   notes.add(found.folded, "face", "with corners off the plane: cut into flat triangles");
   notes.add(found.smoothed, "face", "with vertex normals (n): kept flat");

@@ -283,11 +283,10 @@ void Reader::add_surface(const Statement& s) {
       }
       object.name = next_name(s);
       object.material = material.number;
-      if (surface.can_emit) object.exitance = material.exitance;
+      object.exitance = material.exitance;
       const bool open_on_both = materials_.current().sides == 2 && !object.shape->solid();
       object.sides = open_on_both && !emits ? Sides::both : Sides::front;
       findings_.two_sided_lights += emits && open_on_both;
-      findings_.dark_lights += emits && !surface.can_emit;
       objects.push_back(std::move(object));
     }
   } catch (const InputError& error) {

@@ -62,9 +62,7 @@ Surface read_torus(const Statement& s, const Vertices& vertices) {
   if (inward) inner = -inner, outer = -outer;
   if (inner < 0) s.fail(2, "the radii of a torus must have the same sign");
   if (inner > outer) s.fail(2, "the inner radius must be less than the outer one");
-  Surface surface{placed_torus(center.point, center.normal, inner, outer, inward)};
-  surface.can_emit = false;
-  return surface;
+  return {placed_torus(center.point, center.normal, inner, outer, inward)};
 }
 
 /// The vertices that the words from `first` to `last` name.

@@ -11,7 +11,6 @@ struct Surface {
   std::size_t corners = 0;  ///< of a face or of the end of a prism
   bool flat = true;         ///< its corners lie in a plane
   bool smoothed = false;    ///< has vertex normals that are not those of the surface
-  bool can_emit = true;     ///< the shape can be cut into triangles
 };
 
 /// Whether read_surface() knows the entity.
