@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "formats/one_object.h"
+#include "isolux/formats/mgf/mgf.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/complement.h"
 #include "isolux/geometry/csg.h"
@@ -16,6 +17,7 @@
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
 #include "isolux/geometry/triangle_mesh.h"
+#include "isolux/scene/reader.h"
 
 namespace isolux {
 namespace {
@@ -157,6 +159,21 @@ TEST(WriteMgf, SidesAreThoseOfTheMaterial) {
   scene.cameras = {{"eye", {}, {1, 0, 0}}};
   EXPECT_THAT(write_mgf(scene).notes,
               ElementsAre("cameras are left out (1): MGF has none", HasSubstr("unseen")));
+}
+
+TEST(WriteMgf, PartsOfASolidKeepTheirMaterials) {
+  const Scene scene = read_scene(
+      "isolux: 1\nmaterials: {a: {reflectance: 0.3}, b: {reflectance: 0.6}}\nobjects:\n"
+      "  - material: a\n    shape: {difference: [{box: {lower: [0, 0, 0], upper: [2, 2, 2]}}, "
+      "{box: {lower: [0.5, 0.5, 1], upper: [1.5, 1.5, 3]}, material: b}]}\n",
+      "test.yaml");
+  const Scene back = parse_mgf(write_mgf(scene).text, "test.mgf").scene;
+  double areas[2] = {};
+  for (std::uint32_t i = 0; i < back.objects.size(); ++i) {
+    areas[back.material_of(i).name == "b"] += back.objects[i].shape->area().value();
+  }
+  EXPECT_NEAR(areas[0], 23, 0.5);
+  EXPECT_NEAR(areas[1], 5, 0.3);
 }
 
 }  // namespace

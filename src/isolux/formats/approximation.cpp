@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "isolux/core/affine.h"
+#include "isolux/geometry/face_selection.h"
 
 namespace isolux {
 namespace {
@@ -216,6 +217,20 @@ double deviation(const Shape& shape, const TriangleSoup& soup) {
   return most;
 }
 
+/// Leaves the triangles that stand for faces shown.
+void select(const FaceSelection& selection, TriangleSoup& soup) {
+  Hits hits;
+  std::erase_if(soup.triangles, [&](const auto& t) {
+    const Vec3 &p = soup.points[t[0]], &q = soup.points[t[1]], &r = soup.points[t[2]];
+    hits.clear();
+    selection.whole()->intersect({(p + q + r) / 3, normalized(cross(q - p, r - p))}, hits);
+    const auto nearest = std::min_element(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+      return std::abs(a.t) < std::abs(b.t);
+    });
+    return nearest == hits.end() || !selection.shows(nearest->face);
+  });
+}
+
 /// Without the triangles that have no area.
 void clean(TriangleSoup& soup) {
   std::erase_if(soup.triangles, [&](const auto& t) {
@@ -232,13 +247,15 @@ Approximation approximate(const Shape& shape, double max_edge) {
   if (auto soup = shape.triangulate(max_edge)) {
     result.soup = std::move(*soup);
   } else {
+    const auto* const selection = dynamic_cast<const FaceSelection*>(&shape);
     for (const int cells : {32, 64}) {
-      Contouring grid(shape, cells);
+      Contouring grid(selection ? *selection->whole() : shape, cells);
       result.soup = grid.soup();
       result.lost = grid.coarse() ? grid.size() : 0;
       if (!grid.coarse()) break;
     }
     clean(result.soup);
+    if (selection) select(*selection, result.soup);
   }
   result.deviation = deviation(shape, result.soup);
   return result;

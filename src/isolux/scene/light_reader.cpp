@@ -115,7 +115,9 @@ Source read_source(const Value& light, std::size_t number) {
   return source;
 }
 
-Rgb read_emission(const Value& emission, const Shape& shape) {
+namespace {
+
+Rgb read_emission_of(const Value& emission, const Shape* shape) {
   const Fields fields(emission, {"exitance", "flux", "color"});
   const std::optional<Value> exitance = fields.find("exitance"), flux = fields.find("flux");
   if (exitance.has_value() == flux.has_value()) {
@@ -128,7 +130,7 @@ Rgb read_emission(const Value& emission, const Shape& shape) {
   if (exitance) {
     emitted = exitance->color() * read_hue(fields);
   } else {
-    const double area = surface_area(shape).value_or(0);
+    const double area = shape ? surface_area(*shape).value_or(0) : 0;
     if (!(area > 0)) flux->fail("'flux' needs a surface with an area: give 'exitance' instead");
     emitted = read_hue(fields) * (read_flux(*flux) / area);
   }
@@ -137,5 +139,13 @@ Rgb read_emission(const Value& emission, const Shape& shape) {
   }
   return emitted;
 }
+
+}  // namespace
+
+Rgb read_emission(const Value& emission, const Shape& shape) {
+  return read_emission_of(emission, &shape);
+}
+
+Rgb read_emission(const Value& emission) { return read_emission_of(emission, nullptr); }
 
 }  // namespace isolux

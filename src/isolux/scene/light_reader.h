@@ -9,6 +9,8 @@ namespace isolux {
 
 /// Reads an `emission` of the shape: its exitance in lm/m².
 Rgb read_emission(const Value& emission, const Shape& shape);
+/// The same for a part of a shape, whose area is not known.
+Rgb read_emission(const Value& emission);
 
 /// Reads an item of `lights`; one without a name gets its kind and `number`.
 Source read_source(const Value& light, std::size_t number);

@@ -53,10 +53,12 @@ Sides read_sides(const Fields& fields, const Shape& shape) {
   return sides;
 }
 
-Object read_object(const Value& value, std::size_t number, const MaterialIndex& materials,
-                   const ShapeLibrary& shapes) {
+/// An object, or several where its parts look different.
+std::vector<Object> read_object(const Value& value, std::size_t number,
+                                const MaterialIndex& materials, const ShapeLibrary& shapes) {
   const Fields fields(value, {"name", "shape", "material", "sides", "transform", "emission"});
-  const ReadShape read = shapes.read(fields.require("shape"));
+  const ReadShape read = shapes.read(
+      fields.require("shape"), [&](const Value& name) { return find_material(name, materials); });
   Object object;
   const std::optional<Value> name = fields.find("name");
   object.name = name ? name->text() : fmt::format("{} {}", read.kind, number);
@@ -66,7 +68,11 @@ Object read_object(const Value& value, std::size_t number, const MaterialIndex& 
   if (const auto emission = fields.find("emission")) {
     object.exitance = read_emission(*emission, *object.shape);
   }
-  return object;
+  try {
+    return split_by_finish(object, read.faces);
+  } catch (const InputError& error) {
+    value.fail(error.what());
+  }
 }
 
 Scene read_document(const YamlDocument& document, const ReadingCallback& progress) {
@@ -93,13 +99,13 @@ Scene read_document(const YamlDocument& document, const ReadingCallback& progres
   const Value objects = fields.require("objects");
   constexpr std::size_t kReportEvery = 256;
   const std::vector<Value> items = objects.items();
-  for (const Value& object : items) {
-    const std::size_t count = scene.objects.size();
-    if (count % kReportEvery == 0) {
-      report_progress(progress, {"making objects", double(count) / double(items.size())});
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i % kReportEvery == 0) {
+      report_progress(progress, {"making objects", double(i) / double(items.size())});
     }
-    scene.objects.push_back(
-        read_object(object.labelled("object"), scene.objects.size() + 1, materials, shapes));
+    for (Object& part : read_object(items[i].labelled("object"), i + 1, materials, shapes)) {
+      scene.objects.push_back(std::move(part));
+    }
   }
   if (scene.objects.empty()) objects.fail("the scene is empty: give at least one object");
   if (const auto lights = fields.find("lights")) {

@@ -17,6 +17,7 @@
 #include "isolux/geometry/reversed.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/torus.h"
+#include "isolux/scene/light_reader.h"
 #include "isolux/scene/make_shape.h"
 #include "isolux/scene/shapes_from_lists.h"
 #include "isolux/scene/spelling.h"
@@ -29,10 +30,15 @@ struct ShapeNesting {
   const ShapeLibrary& library;
   int& deepest;
   std::size_t& count;
+  std::vector<FaceRun>& faces;        ///< of all shapes read so far that hold no others
+  const FindMaterial* find_material;  ///< null where parts have no materials
+  std::optional<Finish> finish;       ///< of the shape around
   int depth = 0;
 
   /// Counts shapes that reach `more` levels further down.
   void enter(const Value& place, int more, std::size_t shapes) const;
+  /// Takes the finish that a shape has of its own.
+  void read_finish(const Fields& fields);
   /// The shape of that name.
   std::shared_ptr<const Shape> named(const Value& name) const;
 };
@@ -56,6 +62,16 @@ void ShapeNesting::enter(const Value& place, int more, std::size_t shapes) const
   if (shapes > 1 && count > kMostWithinOne) {
     place.fail(fmt::format("more than {} shapes within one: make several objects", kMostWithinOne));
   }
+}
+
+void ShapeNesting::read_finish(const Fields& fields) {
+  const std::optional<Value> material = fields.find("material"), emission = fields.find("emission");
+  const std::optional<Value>& first = material ? material : emission;
+  if (!first) return;
+  if (!find_material) first->fail("a shape under 'shapes' looks as the objects say that it is in");
+  if (depth == 1) first->fail("give it to the object: only what shapes are made of has its own");
+  if (!material) emission->fail("a part that shines needs a 'material' of its own");
+  finish = Finish{(*find_material)(*material), emission ? read_emission(*emission) : Rgb{}};
 }
 
 ShapePtr ShapeNesting::named(const Value& name) const {
@@ -245,24 +261,29 @@ ReadShape read_nested(const Value& value, ShapeNesting nesting) {
   nesting.enter(value, 0, 1);
   std::vector<std::string_view> known;
   for (const ShapeKind& kind : kShapeKinds) known.push_back(kind.key);
-  known.push_back("transform");
+  known.insert(known.end(), {"transform", "material", "emission"});
   const Fields fields(value, known);
+  nesting.read_finish(fields);
   ReadShape read;
   for (const auto& [key, inner] : value.entries()) {
-    if (key.label() == "transform") continue;
+    const std::string_view name = key.label();
+    if (name == "transform" || name == "material" || name == "emission") continue;
     if (read.shape) {
       key.fail(
           fmt::format("{} is a second shape beside {}: an object has one, so make another "
                       "object or a union",
-                      in_quotes(key.label()), in_quotes(read.kind)));
+                      in_quotes(name), in_quotes(read.kind)));
     }
-    const auto kind =
-        std::find_if(std::begin(kShapeKinds), std::end(kShapeKinds),
-                     [name = key.label()](const ShapeKind& k) { return k.key == name; });
-    read = {kind->key, kind->read(inner, nesting)};
+    const auto kind = std::find_if(std::begin(kShapeKinds), std::end(kShapeKinds),
+                                   [&](const ShapeKind& k) { return k.key == name; });
+    const std::size_t before = nesting.faces.size();
+    read = {kind->key, kind->read(inner, nesting), {}};
+    if (nesting.faces.size() == before) {  // it holds no others
+      nesting.faces.push_back({read.shape->face_count(), nesting.finish});
+    }
   }
   if (!read.shape) {
-    known.pop_back();
+    known.resize(known.size() - 3);
     value.fail(fmt::format("no shape here: use one of {}", enumerated(known)));
   }
   read.shape = transformed(read.shape, fields);
@@ -273,14 +294,18 @@ ReadShape read_nested(const Value& value, ShapeNesting nesting) {
 
 void ShapeLibrary::add(const Value& name, const Value& shape) {
   Named named;
-  named.shape = read_nested(shape, {*this, named.depth, named.count}).shape;
+  std::vector<FaceRun> faces;
+  named.shape = read_nested(shape, {*this, named.depth, named.count, faces, nullptr, {}}).shape;
   named_.emplace(name.text(), std::move(named));
 }
 
-ReadShape ShapeLibrary::read(const Value& value) const {
+ReadShape ShapeLibrary::read(const Value& value, const FindMaterial& find_material) const {
   int deepest = 0;
   std::size_t count = 0;
-  return read_nested(value, {*this, deepest, count});
+  std::vector<FaceRun> faces;
+  ReadShape read = read_nested(value, {*this, deepest, count, faces, &find_material, {}});
+  read.faces = std::move(faces);
+  return read;
 }
 
 ShapePtr transformed(ShapePtr shape, const Fields& fields) {

@@ -175,6 +175,7 @@ struct ShapeWriter::Node {
   ShapeDescription shape;
   std::vector<Node> operands;
   std::string instance;  ///< the name of a shape that is written elsewhere; or empty
+  Entries finish;        ///< `material` and `emission`, where they are its own
 
   /// Numbers, and names.
   std::size_t size() const {
@@ -196,6 +197,7 @@ struct ShapeWriter::Node {
   std::string flow() const {
     Entries entries{{std::string(shape.kind), flow_content()}};
     if (shape.transform) entries.emplace_back("transform", isolux::flow(*shape.transform));
+    entries.insert(entries.end(), finish.begin(), finish.end());
     return flow_map(entries);
   }
 
@@ -218,6 +220,10 @@ struct ShapeWriter::Node {
       }
     }
     if (shape.transform) append_transform(text, *shape.transform, indent);
+    for (const auto& [key, value] : finish) {
+      new_line(text, indent);
+      text += key + ": " + value;
+    }
   }
 };
 
@@ -230,9 +236,19 @@ std::string flow_map(const Entries& entries) {
   return map + "}";
 }
 
-ShapeWriter::ShapeWriter(const Scene& scene) {
-  std::unordered_map<const Shape*, std::size_t> uses;
-  for (const Object& object : scene.objects) collect(object.shape, uses);
+ShapeWriter::ShapeWriter(const Scene& scene, const std::vector<std::string>& materials)
+    : materials_(materials) {
+  Uses uses;
+  const std::span<const Object> objects(scene.objects);
+  for (std::size_t i = 0, n = 0; i < objects.size(); i += n) {
+    n = count_split(scene.objects, i);
+    if (n == 1) {
+      collect(objects[i].shape, uses);
+    } else {
+      const FinishOfFaces finishes(objects.subspan(i, n));
+      collect(finishes.whole(), finishes, 0, uses);
+    }
+  }
   std::vector<std::shared_ptr<const Shape>> named;
   for (std::shared_ptr<const Shape>& shape : order_) {
     if (uses[shape.get()] == 1) continue;
@@ -244,16 +260,24 @@ ShapeWriter::ShapeWriter(const Scene& scene) {
   order_ = std::move(named);
 }
 
-void ShapeWriter::collect(const std::shared_ptr<const Shape>& shape,
-                          std::unordered_map<const Shape*, std::size_t>& uses) {
+void ShapeWriter::collect(const std::shared_ptr<const Shape>& shape, Uses& uses) {
   const std::shared_ptr<const Shape> first = original(shape).shape;
   if (++uses[first.get()] > 1) return;
   for (const auto& operand : first->describe().operands) collect(operand, uses);
   order_.push_back(first);
 }
 
+void ShapeWriter::collect(const std::shared_ptr<const Shape>& shape, const FinishOfFaces& finishes,
+                          std::uint32_t face, Uses& uses) {
+  if (finishes.all(face, shape->face_count())) return collect(shape, uses);
+  for (const auto& operand : original(shape).shape->describe().operands) {
+    collect(operand, finishes, face, uses);
+    face += operand->face_count();
+  }
+}
+
 ShapeWriter::Node ShapeWriter::written_out(const Shape& shape) const {
-  Node node{shape.describe(), {}, {}};
+  Node node{shape.describe(), {}, {}, {}};
   for (const auto& operand : node.shape.operands) node.operands.push_back(described(operand));
   return node;
 }
@@ -274,6 +298,25 @@ ShapeWriter::Node ShapeWriter::described(const std::shared_ptr<const Shape>& sha
   return node;
 }
 
+ShapeWriter::Node ShapeWriter::described(const std::shared_ptr<const Shape>& shape,
+                                         const FinishOfFaces& finishes, std::uint32_t face) const {
+  if (const auto finish = finishes.all(face, shape->face_count())) {
+    Node node = described(shape);
+    if (finish == finishes.own()) return node;
+    node.finish.emplace_back("material", materials_[finish->material]);
+    if (finish->exitance != Rgb{}) {
+      node.finish.emplace_back("emission", "{exitance: " + to_yaml(finish->exitance) + "}");
+    }
+    return node;
+  }
+  Node node{shape->describe(), {}, {}, {}};
+  for (const auto& operand : node.shape.operands) {
+    node.operands.push_back(described(operand, finishes, face));
+    face += operand->face_count();
+  }
+  return node;
+}
+
 void ShapeWriter::append(std::string& text, std::size_t indent, const std::string& key,
                          const Node& node) {
   new_line(text, indent);
@@ -289,9 +332,11 @@ void ShapeWriter::append(std::string& text, std::size_t indent, const std::strin
   node.append_block(text, indent + 2);
 }
 
-void ShapeWriter::append(std::string& text, std::size_t indent, const std::string& key,
-                         const std::shared_ptr<const Shape>& shape) const {
-  append(text, indent, key, described(shape));
+void ShapeWriter::append(std::string& text, std::size_t indent,
+                         std::span<const Object> object) const {
+  if (object.size() == 1) return append(text, indent, "shape", described(object.front().shape));
+  const FinishOfFaces finishes(object);
+  append(text, indent, "shape", described(finishes.whole(), finishes, 0));
 }
 
 void ShapeWriter::append_shared(std::string& text) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -43,13 +44,15 @@ std::vector<std::string> keys_of(const std::vector<Named>& all, const std::strin
   return keys;
 }
 
-void append_object(std::string& text, const Object& object, std::size_t number,
+/// Appends an object, or one that is split by finish.
+void append_object(std::string& text, std::span<const Object> split, std::size_t number,
                    const std::string& material, const ShapeWriter& shapes) {
+  const Object& object = split.front();
   const std::string name = object.name.empty()
                                ? fmt::format("{} {}", object.shape->describe().kind, number)
                                : object.name;
   text += "  - name: " + to_yaml(name);
-  shapes.append(text, 4, "shape", object.shape);
+  shapes.append(text, 4, split);
   text += "\n    material: " + material;
   if (object.sides == Sides::front && !object.shape->solid()) text += "\n    sides: front";
   if (object.emits()) text += "\n    emission: {exitance: " + to_yaml(object.exitance) + "}";
@@ -106,12 +109,14 @@ std::string write_scene(const Scene& scene) {
         "  " + materials[i] + ": {reflectance: " + to_yaml(scene.materials[i].reflectance) + "}\n";
   }
 
-  const ShapeWriter shapes(scene);
+  const ShapeWriter shapes(scene, materials);
   shapes.append_shared(text);
 
   text += "\nobjects:\n";
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    append_object(text, scene.objects[i], i + 1, materials[scene.objects[i].material], shapes);
+  const std::span<const Object> objects(scene.objects);
+  for (std::size_t i = 0, n = 0; i < objects.size(); i += n) {
+    n = count_split(scene.objects, i);
+    append_object(text, objects.subspan(i, n), i + 1, materials[objects[i].material], shapes);
   }
 
   if (!scene.sources.empty()) text += "\nlights:\n";
