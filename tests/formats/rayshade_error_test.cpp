@@ -99,6 +99,19 @@ TEST(RayshadeErrors, WhateverIsTooMuchIsRefused) {
     macros += fmt::format("#define M{} M{} M{}\n", i, i + 1, i + 1);
   }
   EXPECT_THAT(rayshade_refusal(names + "object n59"), HasSubstr("more than 250000 objects"));
+  std::string bits =
+      "surface a diffuse 1 0 0 surface b diffuse 0 1 0\nname s0 union sphere a 1 0 0 0 "
+      "sphere b 1 1 0 0 end\n";
+  for (int i = 1; i < 17; ++i) {
+    bits += fmt::format("name s{0} union object s{1} object s{1} end\n", i, i - 1);
+  }
+  std::string places, lists = "name t0 object s16\n";
+  for (int i = 1; i < 30; ++i) {
+    places += "object s14\n";
+    lists += fmt::format("name t{} union object t{} sphere 1 0 0 0 end\n", i, i - 1);
+  }
+  EXPECT_THAT(rayshade_refusal(bits + places), HasSubstr("more than 250000 parts"));
+  EXPECT_THAT(rayshade_refusal(bits + lists + "object t29"), HasSubstr("too many surfaces"));
   EXPECT_THAT(rayshade_refusal(macros + "M1"), HasSubstr("the macros make more than 64 MiB"));
   for (int i = 1; i < 200; ++i) {
     chain += fmt::format("name n{} object n{}\n", i, i - 1);

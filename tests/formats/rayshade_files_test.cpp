@@ -23,7 +23,7 @@ TEST_F(RayshadeFiles, AllAreRead) {
   };
   const std::map<std::string, Counts> expected = {
       {"ashtray.def", {1, 1, 1}}, {"ashtray", {2, 1, 2}}, {"balls", {11, 3, 2}},
-      {"blob", {2, 2, 1}},        {"boxball", {2, 1, 1}}, {"csg", {4, 3, 2}},
+      {"blob", {2, 2, 1}},        {"boxball", {3, 1, 2}}, {"csg", {4, 3, 2}},
       {"glass.def", {1, 1, 1}},   {"glass", {2, 1, 2}},   {"planet", {1, 1, 1}},
       {"pool", {28, 1, 12}},      {"stripe", {1, 1, 1}},
   };

@@ -90,12 +90,26 @@ TEST(RayshadeSolids, GroundWithADent) {
   EXPECT_TRUE(ground.contains({0, 0, -1.1}));
 }
 
-TEST(RayshadeSolids, SeveralSurfacesAreNamed) {
-  const std::string solid = "difference sphere red 1 0 0 0 sphere blue 1 1 0 0 end";
+TEST(RayshadeSolids, PartsKeepTheirSurfaces) {
   const std::string surfaces = "surface red diffuse .5 0 0 surface blue diffuse 0 0 .5\n";
-  const SceneFile file = read_rayshade_text(surfaces + solid);
-  EXPECT_EQ(file.scene.material_of(0).name, "red");
-  EXPECT_TRUE(has_note(file, "several surfaces"));
+  const Scene scene = rayshade_scene(
+      surfaces +
+      "name hole list sphere blue 1 0 0 0 box blue -1 -1 1 1 1 2 end\n"
+      "difference box red -2 -2 -2 2 2 2 object hole translate 2 0 0 sphere red 1 0 -2 0 end");
+  ASSERT_EQ(scene.objects.size(), 2u);
+  // What lies towards the middle from there, and its color.
+  const auto looks = [&](const Vec3& from) {
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      Hits hits;
+      scene.objects[i].shape->intersect({from, -from}, hits);
+      if (!hits.empty() && hits.front().t < 0.9) return scene.material_of(i).name;
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(looks({5, 0, 0}), "blue");
+  EXPECT_EQ(looks({-5, 0, 0}), "red");
+  EXPECT_EQ(looks({0, -5, 0}), "red");
+  EXPECT_EQ(scene.materials.size(), 2u);
 }
 
 }  // namespace

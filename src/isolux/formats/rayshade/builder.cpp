@@ -33,12 +33,12 @@ class Builder {
 
  private:
   void measure();
-  ShapePtr shape_of(const Leaf& leaf);
-  ShapePtr local_shape(const Leaf& leaf);
+  Solid shape_of(const Leaf& leaf);
+  Solid local_shape(const Leaf& leaf);
   ShapePtr seen_from_eye(ShapePtr shape);
   std::uint32_t material_of(const Surface& surface);
-  SurfacePtr surface_of(const Leaf& leaf);
   std::string name_of(const Leaf& leaf);
+  void add(const Object& object, const Solid& solid, const Node& node);
   Camera camera() const;
 
   const Model& model_;
@@ -46,11 +46,12 @@ class Builder {
   std::vector<Leaf> leaves_;
   Extent extent_;
   PlaneCut cut_;
-  Solids solids_{cut_, notes_};
+  Solids solids_{cut_, notes_, [this](const Surface& surface) { return material_of(surface); }};
   Scene scene_;
   std::map<const Node*, ShapePtr> meshes_;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;
   NumberedNames material_names_, object_names_;
+  std::size_t split_runs_ = 0;  ///< of faces, in all solids with several surfaces
 };
 
 /// Finds the scene's middle and size. Planes count with their point nearest to the middle.
@@ -77,36 +78,39 @@ void Builder::measure() {
   cut_ = {extent_.middle, kPlaneSide * extent_.size};
 }
 
-/// The leaf's shape in its own frame, shared by all mentions of it.
-ShapePtr Builder::local_shape(const Leaf& leaf) {
+/// The leaf's shape in its own frame, shared by all mentions of it; the faces of what CSG joins.
+Solid Builder::local_shape(const Leaf& leaf) {
   const Node& node = *leaf.node;
-  if (const auto* shape = std::get_if<ShapePtr>(&node.geometry)) return *shape;
-  if (const auto* tube = std::get_if<Tube>(&node.geometry)) return tube->side;
-  if (const auto* disc = std::get_if<Disc>(&node.geometry)) return disc->shape;
+  if (const auto* shape = std::get_if<ShapePtr>(&node.geometry)) return {*shape, {}};
+  if (const auto* tube = std::get_if<Tube>(&node.geometry)) return {tube->side, {}};
+  if (const auto* disc = std::get_if<Disc>(&node.geometry)) return {disc->shape, {}};
   if (const auto* facets = std::get_if<Facets>(&node.geometry)) {
-    if (facets->polygon) return facets->polygon;
+    if (facets->polygon) return {facets->polygon, {}};
     ShapePtr& mesh = meshes_[&node];
     if (!mesh) {
       mesh = make<TriangleMesh>(node.place, node.word, facets->soup.points, facets->soup.triangles);
     }
-    return mesh;
+    return {mesh, {}};
   }
   return solids_.solid(node, leaf.map);
 }
 
-ShapePtr Builder::shape_of(const Leaf& leaf) {
+Solid Builder::shape_of(const Leaf& leaf) {
   const Node& node = *leaf.node;
   if (const auto* plane = std::get_if<Plane>(&node.geometry)) {
     notes_.add(fmt::format("planes are cut to squares with a side of {} times the scene's size",
                            kPlaneSide));
     try {
-      return cut_.square(*plane, leaf.map);
+      return {cut_.square(*plane, leaf.map), {}};
     } catch (const InputError& error) {
       fail(node.place, fmt::format("'plane' can't be made: {}", error.what()));
     }
   }
-  ShapePtr shape = local_shape(leaf);
-  return leaf.moved ? make<Instance>(node.place, node.word, std::move(shape), leaf.map) : shape;
+  Solid solid = local_shape(leaf);
+  if (leaf.moved) {
+    solid.shape = make<Instance>(node.place, node.word, std::move(solid.shape), leaf.map);
+  }
+  return solid;
 }
 
 /// Rayshade shows surfaces from both sides. Solids have but one: what is closed around the eye, as
@@ -117,29 +121,6 @@ ShapePtr Builder::seen_from_eye(ShapePtr shape) {
   if (!shape->solid() || !may_contain || !shape->contains(eye)) return shape;
   if (!shape->unbounded()) notes_.add("what is closed around the eye is a room, seen from inside");
   return std::make_shared<Complement>(std::move(shape));
-}
-
-/// The surfaces of a leaf's parts, those inside a solid included; `around` where they name none.
-void collect_surfaces(const Node& node, SurfacePtr around, std::vector<SurfacePtr>& surfaces) {
-  if (node.surface) around = node.surface;
-  if (const auto* reference = std::get_if<Reference>(&node.geometry)) {
-    collect_surfaces(*reference->target, around, surfaces);
-  } else if (const auto* group = std::get_if<Group>(&node.geometry)) {
-    for (const NodePtr& member : group->members) collect_surfaces(*member, around, surfaces);
-  } else {
-    surfaces.push_back(around ? around : default_surface());
-  }
-}
-
-SurfacePtr Builder::surface_of(const Leaf& leaf) {
-  std::vector<SurfacePtr> surfaces;
-  collect_surfaces(*leaf.node, leaf.surface, surfaces);
-  const SurfacePtr& first = surfaces.front();
-  if (std::any_of(surfaces.begin(), surfaces.end(),
-                  [&](const SurfacePtr& s) { return s->diffuse != first->diffuse; })) {
-    notes_.add("a solid that CSG joins of several surfaces has that of its first part");
-  }
-  return first;
 }
 
 std::uint32_t Builder::material_of(const Surface& surface) {
@@ -187,6 +168,23 @@ Camera Builder::camera() const {
   return camera;
 }
 
+/// Adds the object, or its parts where they have surfaces of their own.
+void Builder::add(const Object& object, const Solid& solid, const Node& node) {
+  if (solid.faces.size() > 1) split_runs_ += solid.faces.size();
+  if (split_runs_ > kMostObjects) {
+    fail(node.place, fmt::format("the solids of this scene have more than {} parts with surfaces "
+                                 "of their own",
+                                 kMostObjects));
+  }
+  try {
+    for (Object& part : split_by_finish(object, solid.faces)) {
+      scene_.objects.push_back(std::move(part));
+    }
+  } catch (const InputError& error) {
+    fail(node.place, error.what());
+  }
+}
+
 Scene Builder::build() {
   scene_.cameras.push_back(camera());
   for (const Leaf& leaf : leaves_) {
@@ -194,10 +192,14 @@ Scene Builder::build() {
     if (facets && facets->soup.triangles.empty()) continue;
     Object object;
     object.name = name_of(leaf);
-    object.shape = seen_from_eye(shape_of(leaf));
-    object.material = material_of(*surface_of(leaf));
+    const Solid solid = shape_of(leaf);
+    object.shape = seen_from_eye(solid.shape);
+    if (solid.faces.empty() || std::any_of(solid.faces.begin(), solid.faces.end(),
+                                           [](const FaceRun& run) { return !run.finish; })) {
+      object.material = material_of(leaf.surface ? *leaf.surface : *default_surface());
+    }
     object.sides = object.shape->solid() ? Sides::front : Sides::both;
-    scene_.objects.push_back(std::move(object));
+    add(object, solid, *leaf.node);
   }
   add_lights(model_.lights, extent_, scene_, notes_);
   return std::move(scene_);

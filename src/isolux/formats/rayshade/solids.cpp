@@ -15,7 +15,8 @@ namespace isolux::rayshade {
 namespace {
 
 constexpr double kSamePlace = 1e-3;  ///< of a tube's radius, between its end and a disc there
-constexpr std::ptrdiff_t kCapsWithin = 100;  ///< places in a list, from a tube to its discs
+constexpr std::size_t kMostRuns = 2'000'000;  ///< of faces, in all solids
+constexpr std::ptrdiff_t kCapsWithin = 100;   ///< places in a list, from a tube to its discs
 
 template <typename T>
 const T* as(const Node& node) {
@@ -76,9 +77,25 @@ ShapePtr closed_mesh(const TriangleSoup& soup, const Node& node) {
   return mesh;
 }
 
+Solid joined(CsgOperation operation, const std::vector<Solid>& solids) {
+  std::vector<ShapePtr> shapes;
+  std::vector<FaceRun> faces;
+  for (const Solid& solid : solids) {
+    shapes.push_back(solid.shape);
+    for (const FaceRun& run : solid.faces) {
+      if (!faces.empty() && faces.back().finish == run.finish) {
+        faces.back().count += run.count;
+      } else {
+        faces.push_back(run);
+      }
+    }
+  }
+  return {join(operation, shapes), std::move(faces)};
+}
+
 }  // namespace
 
-ShapePtr Solids::solid(const Node& node, const Affine& map) {
+Solid Solids::solid(const Node& node, const Affine& map) {
   if (node.has_planes) return make_solid(node, map);  // which are cut in the world
   const auto found = made_.find(&node);
   if (found != made_.end()) return found->second;
@@ -86,12 +103,43 @@ ShapePtr Solids::solid(const Node& node, const Affine& map) {
 }
 
 /// The solid with its own map.
-ShapePtr Solids::placed(const Node& node, const Affine& map) {
+Solid Solids::placed(const Node& node, const Affine& map) {
   if (!node.map) return solid(node, map);
-  return make<Instance>(node.place, node.word, solid(node, map * *node.map), *node.map);
+  Solid placed = solid(node, map * *node.map);
+  placed.shape = make<Instance>(node.place, node.word, std::move(placed.shape), *node.map);
+  return placed;
 }
 
-ShapePtr Solids::make_solid(const Node& node, const Affine& map) {
+Solid Solids::make_solid(const Node& node, const Affine& map) {
+  Solid made;
+  const auto* const group = as<Group>(node);
+  if (const auto* reference = as<Reference>(node)) {
+    made = placed(*reference->target, map);
+  } else if (group && !group->operation) {
+    made = join_list(node, map);
+  } else if (group) {
+    std::vector<Solid> solids;
+    for (const NodePtr& member : group->members) solids.push_back(placed(*member, map));
+    try {
+      made = joined(*group->operation, solids);
+    } catch (const InputError& error) {
+      fail(node.place, fmt::format("{} can't be made: {}", in_quotes(node.word), error.what()));
+    }
+  } else {
+    made.shape = make_simple(node, map);
+    made.faces = {{made.shape->face_count(), {}}};
+  }
+  if (node.surface) {
+    for (FaceRun& run : made.faces) {
+      if (!run.finish) run.finish = Finish{material_of_(*node.surface), {}};
+    }
+  }
+  runs_ += made.faces.size();
+  if (runs_ > kMostRuns) fail(node.place, "the solids of this scene have too many surfaces");
+  return made;
+}
+
+ShapePtr Solids::make_simple(const Node& node, const Affine& map) {
   if (const auto* shape = as<ShapePtr>(node)) {
     if (!(*shape)->solid()) refuse_open(node);
     return *shape;
@@ -105,27 +153,18 @@ ShapePtr Solids::make_solid(const Node& node, const Affine& map) {
     return cut_.half_space(*plane, map);
   }
   if (const auto* facets = as<Facets>(node)) return closed_mesh(facets->soup, node);
-  if (const auto* reference = as<Reference>(node)) return placed(*reference->target, map);
-  if (const auto* group = as<Group>(node)) {
-    if (!group->operation) return join_list(node, map);
-    std::vector<ShapePtr> solids;
-    for (const NodePtr& member : group->members) solids.push_back(placed(*member, map));
-    try {
-      return join(*group->operation, solids);
-    } catch (const InputError& error) {
-      fail(node.place, fmt::format("{} can't be made: {}", in_quotes(node.word), error.what()));
-    }
-  }
   refuse_open(node);
 }
 
-ShapePtr Solids::join_list(const Node& list, const Affine& map) {
+Solid Solids::join_list(const Node& list, const Affine& map) {
   const std::vector<NodePtr>& members = as<Group>(list)->members;
-  std::vector<ShapePtr> solids;
+  std::vector<Solid> solids;
   TriangleSoup soup;
+  SurfacePtr surface;  // that of the first facet counts for all
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Node& member = *members[i];
     if (as<Facets>(member)) {
+      if (soup.triangles.empty()) surface = member.surface;
       append(soup, member);
     } else if (!as<Disc>(member)) {
       solids.push_back(placed(member, map));
@@ -133,9 +172,14 @@ ShapePtr Solids::join_list(const Node& list, const Affine& map) {
       refuse_open(member);
     }
   }
-  if (!soup.triangles.empty()) solids.push_back(closed_mesh(soup, list));
+  if (!soup.triangles.empty()) {
+    const ShapePtr mesh = closed_mesh(soup, list);
+    FaceRun faces{mesh->face_count(), {}};
+    if (surface) faces.finish = Finish{material_of_(*surface), {}};
+    solids.push_back({mesh, {faces}});
+  }
   if (solids.empty()) fail(list.place, fmt::format("this {} is empty", in_quotes(list.word)));
-  return join(CsgOperation::unite, solids);
+  return joined(CsgOperation::unite, solids);
 }
 
 }  // namespace isolux::rayshade
