@@ -7,8 +7,9 @@
 namespace isolux {
 
 bool FaceSelection::shows(std::uint32_t face) const {
-  const auto after = std::upper_bound(shown_.begin(), shown_.end(), face,
-                                      [](std::uint32_t f, const FaceRange& r) { return f < r.end; });
+  const auto after =
+      std::upper_bound(shown_.begin(), shown_.end(), face,
+                       [](std::uint32_t f, const FaceRange& r) { return f < r.end; });
   return after != shown_.end() && face >= after->first;
 }
 
