@@ -156,7 +156,7 @@ void CoverPoints::grow_from(const ZonePoint& point) {
 
 /// Covers the patch around a point, if light reaches that.
 void CoverPoints::begin_at(const ZonePoint& point) {
-  if (light_.reaches_beside(point, random_)) look_from(point, {largest_on(point)});
+  if (light_.reaches_beside(point, random_) && lit(point)) look_from(point, {largest_on(point)});
   spawn_all();
 }
 
@@ -223,14 +223,16 @@ void CoverPoints::settle() {
   }
 }
 
+Vec3 CoverPoints::any_direction(const ZonePoint& point) {
+  const Frame frame(point.normal);
+  const double angle = kTau * random_.uniform();
+  return frame.u * std::cos(angle) + frame.v * std::sin(angle);
+}
+
 /// Makes points of the creases around a point that light reaches, and of itself where they leave
 /// room.
 void CoverPoints::look_from(const ZonePoint& point, const PointSpacing& most) {
-  if (!lit(point)) return;
-  const Frame frame(point.normal);
-  const double angle = kTau * random_.uniform();
-  const Vec3 first = frame.u * std::cos(angle) + frame.v * std::sin(angle);
-  const Surroundings around = look_around(point, first, most);
+  const Surroundings around = look_around(point, any_direction(point), most);
   for (const Ending& ending : around.creases) {
     const double size = around.along(ending.direction);
     if (ending.distance > 1.2 * size) continue;
@@ -251,6 +253,7 @@ void CoverPoints::accept(const ZonePoint& point, const Surroundings& around) {
 void CoverPoints::spawn(std::uint32_t id) {
   constexpr int kTries = 14;
   constexpr double kFarthest = 1.3;  // children, in sizes
+  if (!surroundings_[id].lit) return;
   const CoverPoint parent = points_[id];
   const Frame frame(parent.normal);
   const double first = kTau * random_.uniform();
@@ -273,7 +276,14 @@ void CoverPoints::spawn(std::uint32_t id) {
     adjoin(parent, *child);
     PointSpacing most = parent;
     most.size = std::min(spacing_, 1.5 * parent.size);
-    if (!crowded(*child, most)) look_from(*child, most);
+    if (crowded(*child, most)) continue;
+    if (lit(*child)) {
+      look_from(*child, most);
+    } else {
+      Surroundings around = look_around(*child, any_direction(*child), most);
+      around.lit = false;
+      accept(*child, around);
+    }
   }
 }
 

@@ -45,6 +45,7 @@ class CoverPoints {
   };
   struct Surroundings : PointSpacing {
     double to_crease = std::numeric_limits<double>::infinity();
+    bool lit = true;  // else it ends the dark: no more points are looked for from there
     std::vector<Ending> creases = {};
   };
   struct CreaseSeed {
@@ -82,6 +83,7 @@ class CoverPoints {
   bool surrounded(const ZonePoint& point) const;
   bool crowded_in_sight(const ZonePoint& point) const;
   void begin_at(const ZonePoint& point);
+  Vec3 any_direction(const ZonePoint& point);
   void look_from(const ZonePoint& point, const PointSpacing& most);
   double largest_on(const ZonePoint& point) const;
   void spawn(std::uint32_t parent);

@@ -46,11 +46,15 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
 
 bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b) const {
   // Lifted over the bulge of the surface between them: a quarter of how far each lies under the
-  // other's tangent plane, half of that where the turn is made at one edge.
+  // other's tangent plane; half of that where the turn is made at one edge.
   const Vec3 d = b.position - a.position;
-  const double drop = std::max(std::abs(dot(d, a.normal)), std::abs(dot(d, b.normal)));
-  const double lift = 0.55 * drop + 8 * rays_.epsilon();
-  return !rays_.occluded({a.position + a.normal * lift, b.position + b.normal * lift});
+  const double drop = std::max({0.0, -dot(d, a.normal), dot(d, b.normal)});
+  for (const double part : {0.3, 0.55}) {
+    const double lift = part * drop + 8 * rays_.epsilon();
+    if (!rays_.occluded({a.position + a.normal * lift, b.position + b.normal * lift})) return true;
+    if (drop == 0) return false;
+  }
+  return false;
 }
 
 std::optional<ZonePoint> SurfaceWalk::step(const ZonePoint& from, const Vec3& target) const {
