@@ -65,6 +65,14 @@ TEST(LightReach, NeitherTheOuterSidesOfARoomNorTheInsideOfAClosedBoxAreCovered) 
   EXPECT_NEAR(area_of(mesh, [&](const Vertex& v) { return v.surface.object < 6; }), 6, 0.01);
 }
 
+TEST(LightReach, WhatACameraSeesIsCoveredThoughItIsDark) {
+  const Scene scene =
+      scene_of(kMaterial + std::string("objects:\n") + hollow_cube(0, 1) + kLamp +
+               "cameras: {outside: {eye: [-3, -3, 4], look_at: [0.5, 0.5, 0.5], fov: 40}}\n");
+  const Triangulation mesh = covered(scene, 0.1);
+  EXPECT_NEAR(area_of(mesh, [](const Vertex& v) { return v.surface.object < 6; }), 6 + 3, 0.02);
+}
+
 TEST(LightReach, WhatShinesItselfIsCoveredInside) {
   const Scene scene = scene_of(kMaterial + std::string("objects:\n") + hollow_cube(0, 1) + kLamp +
                                hollow_cube(0.5, 0.7, ", emission: {exitance: 1}"));

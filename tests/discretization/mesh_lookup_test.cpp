@@ -63,7 +63,7 @@ TEST(MeshLookup, OfTwoSheetsTheNearer) {
 }
 
 TEST(MeshLookup, WhereNoTriangleLiesTheNearestVerticesOfTheSameSideStandIn) {
-  Triangulation mesh({0.2, 1e-9, 0.5}, {{0, 0, 0}, {1, 1, 1}});
+  Triangulation mesh({0.3, 1e-9, 0.5}, {{0, 0, 0}, {1, 1, 1}});
   add_grid(mesh, {0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, 4, {0, 0}, gray(0.5));
   add_grid(mesh, {0.8, 0, 0}, {0, 0.5, 0}, {0.2, 0, 0}, 4, {0, 1}, gray(0.5));
   const MeshLookup lookup(mesh);

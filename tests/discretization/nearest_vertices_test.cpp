@@ -11,7 +11,7 @@ namespace {
 
 /// A mesh of lone triangles of all sizes, facing all ways.
 Triangulation scattered(std::size_t count) {
-  Triangulation mesh({}, {});
+  Triangulation mesh({2.0}, {{-2, -2, -2}, {2, 2, 2}});  // δ: more than their distances
   Random random(1, 0);
   const auto anywhere = [&] {
     return Vec3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
@@ -52,6 +52,21 @@ TEST(NearestVertices, AreThoseThatASearchThroughAllFinds) {
       EXPECT_NEAR(place->weights[k] / place->weights[0], ratio * ratio, 1e-9);
     }
   }
+}
+
+TEST(NearestVertices, FurtherAwayThanTheLongestEdgeAreNone) {
+  Triangulation mesh({0.5}, {{-1, -1, -1}, {1, 1, 1}});
+  std::array<VertexId, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Vertex vertex;
+    vertex.position = {k == 1 ? 0.3 : 0, k == 2 ? 0.3 : 0, 0};
+    vertex.normal = {0, 0, 1};
+    corners[k] = mesh.restore_vertex(std::move(vertex));
+  }
+  mesh.restore_triangle(corners, {}, {}, false);
+  const NearestVertices nearest(mesh);
+  EXPECT_TRUE(nearest.place({-0.4, 0, 0}, {0, 0, 1}));
+  EXPECT_FALSE(nearest.place({-0.6, 0, 0}, {0, 0, 1}));
 }
 
 TEST(NearestVertices, OfAnEmptyMeshAreNone) {

@@ -20,7 +20,8 @@ struct CoverOptions {
 /// others. Edges run within one smooth surface of one zone (SurfaceWalk); vertices along creases
 /// stand a thousandth of their distance inside. Sizes go down to where neighbours' normals are
 /// within α_n, to twice the width of narrow strips, and along round creases; they grow by half a
-/// metre a metre. On thin surfaces that are straight in one direction, triangles are long along it.
+/// metre a metre. Where LightReach finds no light, a patch ends in a border of vertices. On thin
+/// surfaces that are straight in one direction, triangles are long along it.
 /// All ids stay valid. Throws InputError where the spacing is not positive. Cost: linear in the
 /// vertices made, some 50 rays for each, and in the number of objects.
 void cover(Triangulation& mesh, const RayCaster& rays, const CoverOptions& options);

@@ -108,6 +108,10 @@ void LightReach::send_light(std::uint64_t seed) {
   }
 }
 
+bool LightReach::opens_to(const Place& place, const Vec3& from) const {
+  return dot(from - place.position, place.normal) > 0 && !rays_.occluded({place.position, from});
+}
+
 /// Whether one light, chosen at random, lights the place.
 bool LightReach::lit_straight(const Place& place, Random& random) const {
   const auto& sources = rays_.scene().sources;
@@ -117,11 +121,9 @@ bool LightReach::lit_straight(const Place& place, Random& random) const {
     return !rays_.occluded({place.position, light.position});
   }
   const Source& source = sources[kind - lights_.size()];
-  const bool directional = source.kind == Source::Kind::directional;
-  const Vec3 from =
-      directional ? place.position - source.direction * (2 * rays_.scene().bounds().diagonal())
-                  : source.position;
-  return dot(from - place.position, place.normal) > 0 && !rays_.occluded({place.position, from});
+  if (source.kind != Source::Kind::directional) return opens_to(place, source.position);
+  return opens_to(place,
+                  place.position - source.direction * (2 * rays_.scene().bounds().diagonal()));
 }
 
 bool LightReach::sees_lit_place(const Place& place, Random& random) const {
@@ -132,6 +134,11 @@ bool LightReach::sees_lit_place(const Place& place, Random& random) const {
 bool LightReach::sees_light(const SurfacePoint& point, Random& random) const {
   if (lights_.empty() && rays_.scene().sources.empty()) return true;
   const Place start = above(point.position, point.normal);
+  const auto& cameras = rays_.scene().cameras;
+  if (std::any_of(cameras.begin(), cameras.end(),
+                  [&](const Camera& camera) { return opens_to(start, camera.eye); })) {
+    return true;
+  }
   for (int i = 0; i < kStraightLooks; ++i) {
     if (lit_straight(start, random) || sees_lit_place(start, random)) return true;
   }

@@ -11,7 +11,8 @@ namespace isolux {
 /// closed drawer, nor the outer side of a room's walls. Light is sent out first, to learn a few
 /// places of each object that it reaches; a point that sees such a place, or from where a random
 /// path of reflections leads to a point that sees one, is reached too. Gaps that hardly a path in
-/// a hundred finds do not count.
+/// a hundred finds do not count. What a camera of the scene sees counts as reached, to be shown as
+/// dark as it is.
 class LightReach {
  public:
   /// `walk` must outlive it. Where the scene has no light, everything counts as reached.
@@ -37,6 +38,7 @@ class LightReach {
   void find_lights(std::uint64_t seed);
   void send_light(std::uint64_t seed);
   std::optional<Place> reflected(const Ray& ray, std::uint32_t& object) const;
+  bool opens_to(const Place& place, const Vec3& from) const;
   bool lit_straight(const Place& place, Random& random) const;
   bool sees_lit_place(const Place& place, Random& random) const;
 

@@ -26,7 +26,7 @@ class MeshLookup {
 
   /// As covering(), and where no triangle lies, the three nearest vertices that face as `normal`
   /// does, each weighing one over the square of its distance, so that no light is lost there.
-  /// Nothing where no vertex faces that way, within 60° if possible, else within 90°.
+  /// Nothing where no vertex within δ faces that way, within 60° if possible, else within 90°.
   std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
 
  private:

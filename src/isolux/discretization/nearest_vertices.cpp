@@ -21,19 +21,21 @@ struct Places {
   }
 };
 
-/// The three nearest of those that face as `normal` does, to within the angle of this cosine.
+/// The three nearest of those that face as `normal` does, to within the angle of this cosine, and
+/// stand no further away than the mesh's longest edge.
 class Facing {
  public:
   using DistanceType = double;
 
   Facing(const Places& places, const Vec3& normal, double cosine)
-      : places_(places), normal_(normal), cosine_(cosine) {}
+      : places_(places),
+        normal_(normal),
+        cosine_(cosine),
+        reach_(places.mesh.rules().max_edge * places.mesh.rules().max_edge) {}
 
   std::size_t size() const { return count_; }
   bool full() const { return count_ == nearest_.size(); }
-  double worstDist() const {
-    return full() ? nearest_.back().first : std::numeric_limits<double>::max();
-  }
+  double worstDist() const { return full() ? nearest_.back().first : reach_; }
   bool addPoint(double squared, std::size_t i) {
     const VertexId v = places_.vertices[i];
     const bool facing = dot(places_.mesh.vertex(v).normal, normal_) >= cosine_;
@@ -60,6 +62,7 @@ class Facing {
   const Places& places_;
   Vec3 normal_;
   double cosine_;
+  double reach_;  // m²
   std::size_t count_ = 0;
   std::array<std::pair<double, VertexId>, 3> nearest_;  // m², nearest first
 };
