@@ -345,8 +345,9 @@ class Terminal(ProgramTest):
         return shown.decode()
 
     def test_reading_shows_how_far_it_is_and_can_be_interrupted(self):
-        objects = "".join(f"  - shape: {{sphere: {{center: [{i}, 0, 0], radius: 0.4}}}}\n"
-                          "    material: grey\n" for i in range(700_000))
+        points = ", ".join(f"[{k}, {k * k}, 0]" for k in range(12))
+        objects = "".join(f"  - shape: {{polygon: {{points: [{points}, [0, {i + 1000}, 0]]}}}}\n"
+                          "    material: grey\n" for i in range(180_000))
         scene = self.write("large.yaml", "isolux: 1\nmaterials: {grey: {reflectance: 0.5}}\n"
                            f"objects:\n{objects}")
         terminal, inside = pty.openpty()
