@@ -225,7 +225,8 @@ class Work(ProgramTest):
         self.assertEqual(statistics["iterations"], 4)
         self.assertGreater(statistics["triangles"], 0)
         self.assertGreater(statistics["cpu_seconds"], 0)
-        self.assertGreater(statistics["scene_bytes"], 1000)
+        if statistics["scene_bytes"] != 0:  # it is not known under sanitizers
+            self.assertGreater(statistics["scene_bytes"], 1000)
         self.assertGreater(statistics["peak_bytes"], statistics["scene_bytes"])
         self.assertLess(statistics["unshot_flux"], statistics["emitted_flux"])
 
