@@ -91,18 +91,18 @@ TEST(ExpressionTest, SlopesAreDifferences) {
 // Whatever is taken from intervals lies in the interval of the values, and of the slopes.
 TEST(ExpressionTest, IntervalsHoldAllValues) {
   Random random(5);
-  const auto within = [&](const Interval& i) { return i.lo + (i.hi - i.lo) * random.uniform(); };
+  const auto within = [&](const Enclosure& i) { return i.lo + (i.hi - i.lo) * random.uniform(); };
   for (const char* const text : kFunctions) {
     const Expression f(text);
     for (int i = 0; i < 500; ++i) {
       const double size = std::pow(10, -6 * random.uniform());
-      std::array<Dual<Interval>, 3> box;
+      std::array<Dual<Enclosure>, 3> box;
       for (auto& side : box) {
         side.value.lo = 4 * random.uniform() - 2;
         side.value.hi = side.value.lo + size * random.uniform();
       }
       box[0].slope = 1;
-      const Dual<Interval> range = f(box);
+      const Dual<Enclosure> range = f(box);
       EXPECT_LE(range.value.lo, range.value.hi);
       for (int k = 0; k < 20; ++k) {
         const double x = within(box[0].value), y = within(box[1].value), z = within(box[2].value);

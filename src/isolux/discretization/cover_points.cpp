@@ -105,9 +105,9 @@ bool CoverPoints::crowded_in_sight(const ZonePoint& point) const {
   const PointSpacing most{largest_on(point)};
   thread_local std::vector<std::uint32_t> ids;
   grid_.query(point.surface.object, point.position, kApart * most.size, 1, ids);
-  std::erase_if(ids, [&](std::uint32_t id) { return !crowded_by({&id, 1}, point, most); });
-  return std::any_of(ids.begin(), ids.end(),
-                     [&](std::uint32_t id) { return walk_.open(points_[id], point); });
+  return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
+    return crowded_by({&id, 1}, point, most) && walk_.open(points_[id], point);
+  });
 }
 
 bool CoverPoints::crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,

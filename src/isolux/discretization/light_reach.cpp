@@ -1,5 +1,7 @@
 #include "isolux/discretization/light_reach.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "isolux/sampling/lines.h"

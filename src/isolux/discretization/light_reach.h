@@ -22,7 +22,8 @@ class LightReach {
   /// can tell.
   bool sees_light(const SurfacePoint& point, Random& random) const;
 
-  /// Cost: a few rays where it is reached, some hundreds where not.
+  /// Whether light reaches the point, as far as random paths can tell. Cost: a few rays where it
+  /// does, some hundreds where not.
   bool reaches(const SurfacePoint& point, Random& random) const;
 
   /// Whether it reaches a point of the same surface close by: surfaces that touch leave a hairline

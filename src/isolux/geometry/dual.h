@@ -1,6 +1,6 @@
 #pragma once
 
-#include "isolux/geometry/interval.h"
+#include "isolux/geometry/enclosure.h"
 
 namespace isolux {
 
@@ -59,22 +59,22 @@ inline Dual<double> sqrt(const Dual<double>& a) {
   const double root = std::sqrt(a.value);
   return {root, a.slope / (2 * root)};
 }
-inline Dual<Interval> sqrt(const Dual<Interval>& a) {
+inline Dual<Enclosure> sqrt(const Dual<Enclosure>& a) {
   if (a.value.hi <= 0) return {};
-  const Interval root = sqrt(a.value);
+  const Enclosure root = sqrt(a.value);
   return {root, a.value.lo > 0 ? a.slope / (2.0 * root) : all_reals()};
 }
 
 inline Dual<double> abs(const Dual<double>& a) { return a.value < 0 ? -a : a; }
-inline Dual<Interval> abs(const Dual<Interval>& a) {
+inline Dual<Enclosure> abs(const Dual<Enclosure>& a) {
   if (a.value.lo >= 0) return a;
-  return a.value.hi <= 0 ? -a : Dual<Interval>{abs(a.value), hull(a.slope, -a.slope)};
+  return a.value.hi <= 0 ? -a : Dual<Enclosure>{abs(a.value), hull(a.slope, -a.slope)};
 }
 
 inline Dual<double> min(const Dual<double>& a, const Dual<double>& b) {
   return b.value < a.value ? b : a;
 }
-inline Dual<Interval> min(const Dual<Interval>& a, const Dual<Interval>& b) {
+inline Dual<Enclosure> min(const Dual<Enclosure>& a, const Dual<Enclosure>& b) {
   if (a.value.hi < b.value.lo) return a;
   if (b.value.hi < a.value.lo) return b;
   return {{std::min(a.value.lo, b.value.lo), std::min(a.value.hi, b.value.hi)},

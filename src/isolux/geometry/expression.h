@@ -18,7 +18,7 @@ class Expression {
   explicit Expression(std::string text);
 
   const std::string& text() const { return text_; }
-  /// The function and its derivative, the variables having theirs. `Number` is double or Interval.
+  /// The function and its derivative, the variables having theirs. `Number` is double or Enclosure.
   template <typename Number>
   Dual<Number> operator()(const std::array<Dual<Number>, 3>& variables) const;
 

@@ -16,8 +16,8 @@ class AlongLine {
  public:
   AlongLine(const Expression& function, const Ray& line) : function_(function), line_(line) {}
 
-  Dual<Interval> over(const Interval& s) const {
-    std::array<Dual<Interval>, 3> variables;
+  Dual<Enclosure> over(const Enclosure& s) const {
+    std::array<Dual<Enclosure>, 3> variables;
     for (int i = 0; i < 3; ++i) {
       variables[i] = {line_.origin[i] + line_.direction[i] * s, line_.direction[i]};
     }
@@ -38,21 +38,21 @@ class AlongLine {
 };
 
 /// Whether the function surely has one sign over the piece, by its range or that of its slope.
-bool has_one_sign(const AlongLine& f, const Interval& piece, const Dual<Interval>& range) {
+bool has_one_sign(const AlongLine& f, const Enclosure& piece, const Dual<Enclosure>& range) {
   if (!range.value.holds(0)) return true;
   const double middle = 0.5 * (piece.lo + piece.hi);
-  return !(f.over(middle).value + range.slope * (piece - Interval(middle))).holds(0);
+  return !(f.over(middle).value + range.slope * (piece - Enclosure(middle))).holds(0);
 }
 
 /// Adds the places in [from, to] where the function changes its sign.
 void add_roots(const AlongLine& f, double from, double to, std::vector<Candidate>& candidates) {
-  thread_local std::vector<Interval> pieces, halves;
+  thread_local std::vector<Enclosure> pieces, halves;
   pieces.assign(1, {from, to});
   for (double width = to - from; !pieces.empty(); width *= 0.5) {
     const bool last = width < kShortest || pieces.size() > kMostPieces;
     halves.clear();
-    for (const Interval& piece : pieces) {
-      const Dual<Interval> range = f.over(piece);
+    for (const Enclosure& piece : pieces) {
+      const Dual<Enclosure> range = f.over(piece);
       if (has_one_sign(f, piece, range)) continue;
       if (last || !range.slope.holds(0)) {
         const bool rising = f.at(piece.lo).value < 0;
@@ -90,8 +90,8 @@ ShapeDescription Implicit::describe() const {
           {}};
 }
 
-Interval Implicit::range(const Bounds& box) const {
-  std::array<Dual<Interval>, 3> variables;
+Enclosure Implicit::range(const Bounds& box) const {
+  std::array<Dual<Enclosure>, 3> variables;
   for (int i = 0; i < 3; ++i) variables[i].value = {box.lower[i], box.upper[i]};
   return function_(variables).value;
 }
@@ -138,7 +138,7 @@ void Implicit::intersect(const Ray& ray, Hits& hits) const {
 bool Implicit::avoids(const Bounds& box) const {
   const Bounds own = bounds();
   if (!own.overlaps(box)) return true;
-  const Interval f = range({max(own.lower, box.lower), min(own.upper, box.upper)});
+  const Enclosure f = range({max(own.lower, box.lower), min(own.upper, box.upper)});
   return f.lo > 0 || (f.hi < 0 && own.encloses(box));
 }
 

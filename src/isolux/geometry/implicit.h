@@ -28,7 +28,7 @@ class Implicit final : public Shape {
  private:
   bool negative(const Vec3& point) const;
   /// The range of the function on a box.
-  Interval range(const Bounds& box) const;
+  Enclosure range(const Bounds& box) const;
   /// The unit normal there, or `otherwise` where the function has no slope.
   Vec3 outward(const Vec3& point, const Vec3& otherwise) const;
 

@@ -9,41 +9,41 @@ namespace isolux {
 
 /// The numbers from lo to hi. Functions of intervals enclose all values that the function takes on
 /// them, as rounded, and all reals where that is not known (R. E. Moore, Interval Analysis, 1966).
-struct Interval {
+struct Enclosure {
   double lo = 0, hi = 0;
 
-  constexpr Interval() = default;
-  constexpr Interval(double number) : lo(number), hi(number) {}
-  constexpr Interval(double low, double high) : lo(low), hi(high) {}
+  constexpr Enclosure() = default;
+  constexpr Enclosure(double number) : lo(number), hi(number) {}
+  constexpr Enclosure(double low, double high) : lo(low), hi(high) {}
   bool holds(double number) const { return lo <= number && number <= hi; }
 };
 
-inline Interval all_reals() {
+inline Enclosure all_reals() {
   return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
 /// A little wider, for what rounding took; all reals for what is no interval.
-inline Interval widened(double lo, double hi) {
+inline Enclosure widened(double lo, double hi) {
   constexpr double kRounding = 8e-16, kTiny = 1e-300;
   lo -= std::abs(lo) * kRounding + kTiny;
   hi += std::abs(hi) * kRounding + kTiny;
-  return lo <= hi ? Interval{lo, hi} : all_reals();
+  return lo <= hi ? Enclosure{lo, hi} : all_reals();
 }
 
 /// What holds both.
-inline Interval hull(const Interval& a, const Interval& b) {
+inline Enclosure hull(const Enclosure& a, const Enclosure& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 
-inline Interval operator-(const Interval& a) { return {-a.hi, -a.lo}; }
-inline Interval operator+(const Interval& a, const Interval& b) {
+inline Enclosure operator-(const Enclosure& a) { return {-a.hi, -a.lo}; }
+inline Enclosure operator+(const Enclosure& a, const Enclosure& b) {
   return widened(a.lo + b.lo, a.hi + b.hi);
 }
-inline Interval operator-(const Interval& a, const Interval& b) {
+inline Enclosure operator-(const Enclosure& a, const Enclosure& b) {
   return widened(a.lo - b.hi, a.hi - b.lo);
 }
 
-inline Interval operator*(const Interval& a, const Interval& b) {
+inline Enclosure operator*(const Enclosure& a, const Enclosure& b) {
   const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
   const double p = product(a.lo, b.lo), q = product(a.lo, b.hi);
   const double r = product(a.hi, b.lo), s = product(a.hi, b.hi);
@@ -51,7 +51,7 @@ inline Interval operator*(const Interval& a, const Interval& b) {
                  std::max(std::max(p, q), std::max(r, s)));
 }
 
-inline Interval operator/(const Interval& a, const Interval& b) {
+inline Enclosure operator/(const Enclosure& a, const Enclosure& b) {
   return b.holds(0) ? all_reals() : a * widened(1 / b.hi, 1 / b.lo);
 }
 
@@ -64,21 +64,21 @@ inline double power(double a, int n) {
   return result;
 }
 
-inline Interval power(const Interval& a, int n) {
+inline Enclosure power(const Enclosure& a, int n) {
   const double low = power(a.lo, n), high = power(a.hi, n);
-  Interval result{std::min(low, high), std::max(low, high)};
+  Enclosure result{std::min(low, high), std::max(low, high)};
   if (n % 2 == 0 && n > 0 && a.holds(0)) result.lo = 0;
   const double rounding = 2e-16 * n;
   return widened(result.lo - std::abs(result.lo) * rounding,
                  result.hi + std::abs(result.hi) * rounding);
 }
 
-inline Interval abs(const Interval& a) {
+inline Enclosure abs(const Enclosure& a) {
   const double low = std::abs(a.lo), high = std::abs(a.hi);
   return {a.holds(0) ? 0 : std::min(low, high), std::max(low, high)};
 }
 
-inline Interval cos(const Interval& a) {
+inline Enclosure cos(const Enclosure& a) {
   constexpr double kLargest = 1e9;  // beyond, the turns are not counted well
   constexpr double pi = std::numbers::pi;
   if (!(std::abs(a.lo) < kLargest && std::abs(a.hi) < kLargest)) return {-1, 1};
@@ -88,20 +88,20 @@ inline Interval cos(const Interval& a) {
     return place + 2 * pi * k <= a.hi + kSlack;
   };
   const double first = std::cos(a.lo), last = std::cos(a.hi);
-  Interval result = widened(std::min(first, last), std::max(first, last));
+  Enclosure result = widened(std::min(first, last), std::max(first, last));
   if (passes(0)) result.hi = 1;
   if (passes(pi)) result.lo = -1;
   return result;
 }
 
-inline Interval sin(const Interval& a) { return cos(a - Interval(std::numbers::pi / 2)); }
-inline Interval exp(const Interval& a) {
-  const Interval rounded = widened(std::exp(a.lo), std::exp(a.hi));
+inline Enclosure sin(const Enclosure& a) { return cos(a - Enclosure(std::numbers::pi / 2)); }
+inline Enclosure exp(const Enclosure& a) {
+  const Enclosure rounded = widened(std::exp(a.lo), std::exp(a.hi));
   return {std::max(rounded.lo, 0.0), rounded.hi};
 }
 /// Of negative numbers 0, as in Expression.
-inline Interval sqrt(const Interval& a) {
-  const Interval rounded = widened(std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0)));
+inline Enclosure sqrt(const Enclosure& a) {
+  const Enclosure rounded = widened(std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0)));
   return {std::max(rounded.lo, 0.0), rounded.hi};
 }
 
