@@ -103,7 +103,7 @@ class TwoRoads {
  private:
   std::vector<double> by_rays(int grid, std::uint64_t seed) const {
     std::vector<double> found;
-    std::vector<Landing> row(static_cast<std::size_t>(grid * grid));
+    Row<Landing> row;
     for (std::size_t i = 0; i < receivers_.size(); ++i) {
       hemisphere_.trace(receivers_[i], grid, seed, i, row);
       found.push_back(luminance(hemisphere_.gather(row, irradiance_)));

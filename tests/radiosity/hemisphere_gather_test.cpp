@@ -6,9 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 
-#include "isolux/core/parallel.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 
@@ -23,21 +21,25 @@ Scene box_room(double side, double reflectance, double exitance) {
       side, reflectance, exitance));
 }
 
-std::vector<std::uint32_t> first_ids(std::size_t n) {
-  std::vector<std::uint32_t> ids(n);
-  std::iota(ids.begin(), ids.end(), 0);
-  return ids;
+std::vector<Row<Landing>> rows_of(const HemisphereGather& gather,
+                                  std::span<const Receiver> receivers, int grid,
+                                  std::uint64_t seed) {
+  std::vector<Row<Landing>> rows(receivers.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    gather.trace(receivers[i], grid, seed, i, rows[i]);
+  }
+  return rows;
 }
 
 /// Repeats E = direct + what the rows gather, until nothing changes by more than 1e-6 of it.
-std::vector<Rgb> settle(const HemisphereGather& gather, std::span<const Landing> rows,
+std::vector<Rgb> settle(const HemisphereGather& gather, std::span<const Row<Landing>> rows,
                         std::span<const Rgb> direct) {
-  const std::size_t n = direct.size(), cells = rows.size() / n;
+  const std::size_t n = direct.size();
   std::vector<Rgb> irradiance(direct.begin(), direct.end()), next(n);
   for (double change = 1; change > 1e-6;) {
     change = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      next[i] = direct[i] + gather.gather(rows.subspan(i * cells, cells), irradiance);
+      next[i] = direct[i] + gather.gather(rows[i], irradiance);
       change = std::max(change, std::abs(next[i].g - irradiance[i].g) / next[i].g);
     }
     irradiance.swap(next);
@@ -56,7 +58,7 @@ TEST(HemisphereGather, IsExactInAFurnaceWithAnyNumberOfRays) {
     const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>{0});
     const std::vector<Receiver> receivers = receivers_of(mesh);
     for (const int grid : {1, 2, 5}) {
-      const auto rows = gather.trace(receivers, first_ids(receivers.size()), grid, 3);
+      const auto rows = rows_of(gather, receivers, grid, 3);
       const std::vector<Rgb> zero(receivers.size());
       for (const Rgb& e : settle(gather, rows, zero)) EXPECT_NEAR(e.g, kB0, 1e-4 * kB0);
     }
@@ -80,11 +82,11 @@ TEST(HemisphereGather, InterreflectionInACubeWithALampInItsMiddle) {
     const std::vector<Receiver> receivers = receivers_of(mesh);
     std::vector<Rgb> direct;
     for (const Receiver& r : receivers) direct.push_back(direct_at(r));
-    const auto rows = gather.trace(receivers, first_ids(receivers.size()), 8, 1);
+    const auto rows = rows_of(gather, receivers, 8, 1);
     const std::vector<Rgb> irradiance = settle(gather, rows, direct);
 
     const auto& expected = json.at("expected").at("values").at(fmt::format("R1cube_rho{}", rho));
-    std::vector<Landing> row(64 * 64);
+    Row<Landing> row;
     for (const auto& point : json.at("points")) {
       const Receiver receiver{{point.at("pos")[0], point.at("pos")[1], 0}, {0, 0, 1}};
       gather.trace(receiver, 64, 2, 0, row);
@@ -109,7 +111,7 @@ TEST(HemisphereGather, ErrorsAreHonest) {
   for (const int grid : {4, 8, 20}) {
     constexpr int kRuns = 40;
     double spread = 0, estimated = 0;
-    std::vector<Landing> row(static_cast<std::size_t>(grid * grid));
+    Row<Landing> row;
     for (std::size_t i = 0; i < mesh.vertices().size(); i += 31) {
       const Vertex& vertex = mesh.vertices()[i];
       double sum = 0, squares = 0;
@@ -129,24 +131,58 @@ TEST(HemisphereGather, ErrorsAreHonest) {
   }
 }
 
-TEST(HemisphereGather, TheSameRowsOnAnyNumberOfThreads) {
-  const Scene scene = paper_room();
-  const RayCaster rays(scene);
-  const Triangulation mesh = box_room_mesh({1, 1, 1}, 6, gray(0.6));
-  const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>(4, 0));
-  const std::vector<Receiver> receivers = receivers_of(mesh);
-  std::vector<std::vector<Rgb>> sums;
-  for (const int threads : {1, 2}) {
-    const ThreadLimit limit(threads);
-    const auto rows = gather.trace(receivers, first_ids(receivers.size()), 6, 9);
-    sums.emplace_back();
-    std::vector<Rgb> irradiance(receivers.size(), {1, 2, 3});
-    for (std::size_t i = 0; i < receivers.size(); ++i) {
-      irradiance[i].r = static_cast<double>(i);
-      sums.back().push_back(gather.gather(std::span(rows).subspan(i * 36, 36), irradiance));
-    }
+/// What many rows of the grid find from a receiver: their mean, their spread, and the root mean
+/// square of their errors.
+struct Found {
+  double mean, spread, error, rays;
+};
+
+Found many_rows(const HemisphereGather& gather, const Receiver& receiver, int grid,
+                std::span<const Rgb> irradiance) {
+  constexpr int kRuns = 100;
+  Row<Landing> row;
+  double sum = 0, squares = 0, variances = 0, rays = 0;
+  for (std::uint64_t run = 0; run < kRuns; ++run) {
+    gather.trace(receiver, grid, run, 0, row);
+    const Gathered gathered = gather.gather_with_error(row, irradiance);
+    const double e = luminance(gathered.irradiance);
+    EXPECT_NEAR(e, luminance(gather.gather(row, irradiance)), 1e-12 * e);
+    sum += e, squares += e * e, variances += gathered.error * gathered.error;
+    rays += double(row.rays.size());
   }
-  EXPECT_EQ(sums[0], sums[1]);
+  return {sum / kRuns, std::sqrt((squares - sum * sum / kRuns) / (kRuns - 1)),
+          std::sqrt(variances / kRuns), rays / kRuns};
+}
+
+TEST(HemisphereGather, CellsTowardsSmallBrightPlacesAreDivided) {
+  // Under a ceiling with two small spots, forty times as bright as the rest.
+  const Scene scene = box_room(1, 0.6, 0);
+  const RayCaster rays(scene);
+  const Triangulation mesh = box_room_mesh({1, 1, 1}, 40, gray(0.6));
+  std::vector<Rgb> irradiance;
+  for (const Vertex& v : mesh.vertices()) {
+    const bool spot = v.position.z > 0.999 && (distance(v.position, {0.2, 0.3, 1}) < 0.03 ||
+                                               distance(v.position, {0.775, 0.6, 1}) < 0.03);
+    irradiance.push_back(gray(spot ? 40 : 1));
+  }
+  const std::vector<std::uint8_t> none{0};
+  const HemisphereGather plain(rays, mesh, none), dividing(rays, mesh, none, irradiance);
+  for (const Receiver& receiver :
+       {Receiver{{0.5, 0.5, 0}, {0, 0, 1}}, Receiver{{0.1, 0.35, 0}, {0, 0, 1}},
+        Receiver{{0, 0.45, 0.6}, {1, 0, 0}}}) {
+    const Found truth = many_rows(plain, receiver, 64, irradiance);
+    const Found without = many_rows(plain, receiver, 12, irradiance);
+    const Found found = many_rows(dividing, receiver, 12, irradiance);
+    EXPECT_NEAR(found.mean, truth.mean, 4 * (found.spread + truth.spread) / std::sqrt(100.0));
+    EXPECT_LT(found.spread, without.spread / 4);
+    EXPECT_LT(found.rays, 3 * 144);
+    EXPECT_GT(found.error, 0.7 * found.spread);
+    EXPECT_LT(found.error, 2 * found.spread);
+  }
+  // What is seen from within a spot is not far brighter than the light there.
+  Row<Landing> row;
+  dividing.trace({{0.2, 0.3, 1}, {0, 0, -1}}, 12, 1, 0, row);
+  EXPECT_TRUE(row.divided.empty());
 }
 
 }  // namespace

@@ -187,7 +187,7 @@ void Gathering::finish() {
   for (const VertexLight& light : state_.light) {
     if (!light.gathers) continue;
     ++state_.statistics.gatherers;
-    links += light.row.size();
+    links += light.row.rays.size();
   }
   state_.statistics.gather_rays =
       static_cast<int>(links / std::max<std::size_t>(state_.statistics.gatherers, 1));

@@ -15,8 +15,8 @@ constexpr double kVerticesPart = 0.3;
 constexpr double kEdgesPart = 0.3;
 
 // However small the area is where interpolation is off by more than this many tolerances of the
-// mean irradiance: vertices gather there, and edges are split as long as they are longer than this
-// part of the longest.
+// mean irradiance, or of what is there where that is more: vertices gather there, and edges are
+// split as long as they are longer than this part of the longest.
 constexpr double kMostBend = 1;
 constexpr double kFinest = 1.0 / 64;
 
@@ -135,7 +135,8 @@ std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
     seen[v] = 1;
   };
   for (std::size_t i = 0; i < ranked.size(); ++i) {
-    if (i < n || state_.light[ranked[i].second].bend > most_bend()) visit(ranked[i].second);
+    const VertexId v = ranked[i].second;
+    if (i < n || state_.light[v].bend > most_bend(v)) visit(v);
   }
   while (!open.empty()) {
     const VertexId v = open.back();
@@ -174,11 +175,13 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
   return suspect;
 }
 
-double Gathering::most_bend() const { return kMostBend * state_.level * mean_irradiance(); }
+double Gathering::most_bend(VertexId v) const {
+  return kMostBend * state_.level * std::max(mean_irradiance(), luminance(irradiance(v)));
+}
 
 /// Whether an error e in the middle of an edge is worth a split even where the area is small.
 bool Gathering::stands_out(const Edge& edge, double e) const {
-  return std::abs(e) > most_bend() &&
+  return std::abs(e) > std::max(most_bend(edge.a), most_bend(edge.b)) &&
          distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) >
              kFinest * mesh_.rules().max_edge;
 }
@@ -253,10 +256,9 @@ std::vector<VertexId> Gathering::outdated_vertices() const {
   std::vector<char> renew(state_.light.size());
   parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const std::vector<Link>& row = state_.light[v].row;
-      double sum = 0;
-      for (const Link& link : row) sum += gain[link.site];
-      renew[v] = state_.light[v].gathers && sum > matters * static_cast<double>(row.size());
+      const Row<Link>& row = state_.light[v].row;
+      renew[v] = state_.light[v].gathers &&
+                 mean_over(row, [&](std::size_t i) { return gain[row.rays[i].site]; }) > matters;
     }
   });
   std::vector<VertexId> vertices;

@@ -90,7 +90,7 @@ class Gathering {
     std::uint64_t id;
   };
   struct TracedRow {
-    std::vector<Link> links;
+    Row<Link> links;
     double escaped = 0;       // part of the rays that no light comes back from
     std::vector<Site> fresh;  // of the links to kFresh, in their order
   };
@@ -104,7 +104,7 @@ class Gathering {
   void glimpse();
   void look_up_anew();
   std::vector<VertexId> outdated_vertices() const;
-  Gathered gather(std::span<const Link> row) const;
+  Gathered gather(const Row<Link>& row) const;
   void evaluate(std::span<const VertexId> vertices);
   void interpolate_indirect(VertexId v);
   void foresee_bends(VertexId first);
@@ -128,7 +128,7 @@ class Gathering {
   double rule_bend(VertexId v) const;
   double bend_beside(VertexId v) const;
   double surprise(VertexId v) const;
-  double most_bend() const;
+  double most_bend(VertexId v) const;
   bool stands_out(const Edge& edge, double e) const;
   double indirect_error(const Edge& e) const;
   double indirect_mean_square() const;

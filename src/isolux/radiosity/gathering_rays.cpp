@@ -24,7 +24,7 @@ constexpr double kLeastDoubt = 0.02 * 0.02 * 512;
 /// rays may be alike by chance: what neighbours saw counts too.
 std::vector<double> Gathering::doubts() {
   const auto own = [&](VertexId v, double sigma) {
-    return square(sigma) * std::pow(double(state_.light[v].row.size()), kFall);
+    return square(sigma) * std::pow(double(state_.light[v].row.cells()), kFall);
   };
   std::vector<double> seen(state_.light.size());
   for (const VertexId v : order()) {
@@ -112,7 +112,7 @@ void Gathering::gather_all(int finest) {
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       const VertexLight& light = state_.light[v];
       if (!light.gathers && light.depth > 0) continue;
-      if (double(square_of(std::min(wanted[v], finest))) > kClearly * double(light.row.size())) {
+      if (double(square_of(std::min(wanted[v], finest))) > kClearly * double(light.row.cells())) {
         gatherers.push_back(v);
       }
     }
@@ -131,8 +131,8 @@ void Gathering::trace_as_wanted(std::span<const VertexId> vertices, std::span<co
   std::vector<int> grids;
   for (const VertexId v : vertices) {
     const VertexLight& light = state_.light[v];
-    const double has = light.gathers ? std::sqrt(double(light.row.size())) : 0;
-    grids.push_back(std::max(std::min(wanted[v], finest), static_cast<int>(std::lround(has))));
+    const int has = light.gathers ? light.row.grid : 0;
+    grids.push_back(std::max(std::min(wanted[v], finest), has));
   }
   trace(vertices, grids);
   evaluate(vertices);
@@ -164,7 +164,7 @@ void Gathering::trace_rows(std::span<const RowRequest> requests,
     });
     for (std::size_t i = 0; i < rows.size(); ++i) {
       list_fresh_sites(rows[i]);
-      state_.statistics.refinement_rays += rows[i].links.size();
+      state_.statistics.refinement_rays += rows[i].links.rays.size();
       take(first + i, std::move(rows[i]));
     }
   }
@@ -172,24 +172,23 @@ void Gathering::trace_rows(std::span<const RowRequest> requests,
 
 /// A row whose sites are listed as far as they were before.
 Gathering::TracedRow Gathering::traced(const RowRequest& request) const {
-  thread_local std::vector<Landing> landings;
-  landings.resize(square_of(request.grid));
+  thread_local Row<Landing> landings;
   hemisphere_->trace(request.receiver, request.grid, options_.seed, request.id, landings);
-  TracedRow row;
-  row.links.reserve(landings.size());
-  for (const Landing& landing : landings) {
+  TracedRow row{{landings.grid, landings.divided, {}}, 0, {}};
+  row.links.rays.reserve(landings.rays.size());
+  for (const Landing& landing : landings.rays) {
     const std::optional<std::uint32_t> site = state_.sites.find(landing.site);
-    row.links.push_back({site.value_or(kFresh), landing.weights});
+    row.links.rays.push_back({site.value_or(kFresh), landing.weights});
     if (!site) row.fresh.push_back(landing.site);
-    row.escaped += hemisphere_->lost(landing.site);
   }
-  row.escaped /= static_cast<double>(landings.size());
+  row.escaped = mean_over(
+      landings, [&](std::size_t i) { return double(hemisphere_->lost(landings.rays[i].site)); });
   return row;
 }
 
 void Gathering::list_fresh_sites(TracedRow& row) {
   auto site = row.fresh.begin();
-  for (Link& link : row.links) {
+  for (Link& link : row.links.rays) {
     if (link.site == kFresh) link.site = state_.sites.add(*site++);
   }
   row.fresh = {};
@@ -206,7 +205,7 @@ void Gathering::give_links(VertexId v, TracedRow row) {
 /// Landings from here on are looked up in the mesh as it is now.
 void Gathering::look_up_anew() {
   drop_unused_sites();
-  hemisphere_.emplace(rays_, mesh_, lights_.separate());
+  hemisphere_.emplace(rays_, mesh_, lights_.separate(), state_.sent);
   state_.split_since.clear();
 }
 
@@ -215,7 +214,7 @@ void Gathering::drop_unused_sites() {
   SiteTable kept;
   std::vector<std::uint32_t> renamed(state_.sites.sites().size(), kFresh);
   for (VertexLight& light : state_.light) {
-    for (Link& link : light.row) {
+    for (Link& link : light.row.rays) {
       std::uint32_t& site = renamed[link.site];
       if (site == kFresh) site = kept.add(state_.sites.sites()[link.site]);
       link.site = site;

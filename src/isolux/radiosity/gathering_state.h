@@ -10,6 +10,7 @@
 #include "isolux/discretization/interpolation.h"
 #include "isolux/radiosity/links.h"
 #include "isolux/radiosity/progress.h"
+#include "isolux/radiosity/row.h"
 #include "isolux/radiosity/statistics.h"
 
 namespace isolux {
@@ -27,7 +28,7 @@ struct VertexLight {
                             // gather: those it lies among, all of them less deep
   std::uint32_t depth = 0;  // 0: it has none, and gathers
   bool gathers = false;
-  std::vector<Link> row;  // where it gathers; few where it does not, for a glimpse
+  Row<Link> row;  // where it gathers; few where it does not, for a glimpse
 };
 
 /// What gathering knows between two of its rounds: enough to go on from there.

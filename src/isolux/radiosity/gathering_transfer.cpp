@@ -12,7 +12,7 @@ constexpr double kUnshotShare = 0.02;  // of the tolerance: light not yet passed
 }  // namespace
 
 /// E_i by links, under the light as of light_sites(), with its σ.
-Gathered Gathering::gather(std::span<const Link> row) const {
+Gathered Gathering::gather(const Row<Link>& row) const {
   Gathered gathered = gather_with_error(row, site_light_);
   gathered.irradiance = gathered.irradiance * state_.balance;
   return gathered;

@@ -3,24 +3,50 @@
 #include <algorithm>
 #include <numbers>
 
-#include "isolux/core/parallel.h"
 #include "isolux/core/random.h"
 
 namespace isolux {
 namespace {
 
-/// A direction of the unit disk, in polar coordinates.
-struct Polar {
-  double radius, angle;
+// Brighter, in parts of the mean irradiance, than what rays over a hemisphere find well enough.
+constexpr double kBright = 2;
+// Of the irradiance, a ray over a grid of kUsualGrid cells a side may carry no more than this.
+constexpr double kMostOfAll = 1.0 / 400;
+constexpr double kUsualGrid = 16;
+
+// Points this close to the rim would give rays inside the surface they start from.
+constexpr double kRim = 0.99995;
+
+/// A point of the square [−1, 1]² or of the unit disk.
+struct Point2 {
+  double x, y;
 };
 
-/// The point (a, b) of the square [−1, 1]² on the disk: rings of the square become rings of the
-/// disk, areas keep their ratios (Shirley & Chiu 1997).
-Polar concentric(double a, double b) {
-  constexpr double kEighth = std::numbers::pi / 4;
-  if (a == 0 && b == 0) return {0, 0};
-  if (std::abs(a) > std::abs(b)) return {a, kEighth * (b / a)};
-  return {b, 2 * kEighth - kEighth * (a / b)};
+constexpr double kEighth = std::numbers::pi / 4;
+
+/// The square's point on the disk: rings of the square become rings of the disk, areas keep their
+/// ratios (Shirley & Chiu 1997).
+Point2 to_disk(const Point2& p) {
+  if (p.x == 0 && p.y == 0) return {0, 0};
+  const bool flat = std::abs(p.x) > std::abs(p.y);
+  const double radius = flat ? p.x : p.y;
+  const double angle = flat ? kEighth * (p.y / p.x) : 2 * kEighth - kEighth * (p.x / p.y);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// The way back. Distances grow by a factor of kMostStretch at most.
+constexpr double kMostStretch = 1.76;
+Point2 to_square(const Point2& p) {
+  const double radius = std::hypot(p.x, p.y);
+  if (std::abs(p.x) > std::abs(p.y)) {
+    return {std::copysign(radius, p.x), radius * std::atan(p.y / std::abs(p.x)) / kEighth};
+  }
+  if (p.y == 0) return {0, 0};
+  return {radius * std::atan(p.x / std::abs(p.y)) / kEighth, std::copysign(radius, p.y)};
+}
+
+Point2 turned(const Point2& p, double cosine, double sine) {
+  return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
 }
 
 /// The mean over all cells of the variance of one jittered point in the cell, from the second
@@ -52,35 +78,53 @@ double variance(std::span<const double> values) {
   return squares / (n - 1);
 }
 
+/// The variance of the mean over a grid.
+double variance_of_mean(std::span<const double> values, int grid) {
+  return (grid < 3 ? variance(values) : variance_in_cells(values, grid)) /
+         static_cast<double>(values.size());
+}
+
+/// The variance of the mean over a row, of whose rays these are the values. What a divided cell
+/// has is left out of its neighbours' differences: there its left neighbour stands in for it.
+template <typename Ray>
+double variance_of_mean(const Row<Ray>& row, std::span<double> values) {
+  double within = 0;
+  std::size_t first = row.cells();
+  for (const DividedCell& divided : row.divided) {
+    within += variance_of_mean(values.subspan(first, divided.count()), divided.parts);
+    first += divided.count();
+  }
+  for (const DividedCell& divided : row.divided) {
+    if (divided.cell > 0) values[divided.cell] = values[divided.cell - 1u];
+  }
+  const auto cells = static_cast<double>(row.cells());
+  return variance_of_mean(values.first(row.cells()), row.grid) + within / (cells * cells);
+}
+
 template <typename Ray, typename Radiosity>
-Rgb mean(std::span<const Ray> row, const Radiosity& radiosity) {
-  Rgb sum;
-  for (const Ray& ray : row) sum += radiosity(ray);
-  return sum / static_cast<double>(row.size());
+Rgb mean(const Row<Ray>& row, const Radiosity& radiosity) {
+  return mean_over(row, [&](std::size_t i) { return radiosity(row.rays[i]); });
 }
 
 /// As HemisphereGather::gather_with_error() has it.
 template <typename Ray, typename Radiosity>
-Gathered mean_with_error(std::span<const Ray> row, const Radiosity& radiosity) {
+Gathered mean_with_error(const Row<Ray>& row, const Radiosity& radiosity) {
+  thread_local std::vector<Rgb> arriving;
   thread_local std::vector<double> values;
-  values.clear();
-  Gathered gathered;
-  for (const Ray& ray : row) {
-    const Rgb b = radiosity(ray);
-    gathered.irradiance += b;
-    values.push_back(luminance(b));
+  arriving.clear(), values.clear();
+  for (const Ray& ray : row.rays) {
+    arriving.push_back(radiosity(ray));
+    values.push_back(luminance(arriving.back()));
   }
-  const auto n = static_cast<double>(row.size());
-  gathered.irradiance = gathered.irradiance / n;
-  const int grid = static_cast<int>(std::lround(std::sqrt(n)));
-  gathered.error = std::sqrt((grid < 3 ? variance(values) : variance_in_cells(values, grid)) / n);
-  return gathered;
+  return {mean_over(row, [&](std::size_t i) { return arriving[i]; }),
+          std::sqrt(variance_of_mean(row, values))};
 }
 
 }  // namespace
 
 HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
-                                   std::span<const std::uint8_t> separate)
+                                   std::span<const std::uint8_t> separate,
+                                   std::span<const Rgb> irradiance)
     : rays_(rays), lookup_(mesh) {
   const Scene& scene = rays.scene();
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
@@ -91,6 +135,86 @@ HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& m
     surfaces_.push_back({{}, emission});
   }
   surfaces_.resize(surface_count(scene));
+  if (!irradiance.empty()) find_bright_places(mesh, separate, irradiance);
+}
+
+void HemisphereGather::find_bright_places(const Triangulation& mesh,
+                                          std::span<const std::uint8_t> separate,
+                                          std::span<const Rgb> irradiance) {
+  std::vector<double> radiosity(mesh.triangles().size());
+  double incident = 0, area = 0;
+  for (TriangleId id = 0; id < radiosity.size(); ++id) {
+    const Triangle& triangle = mesh.triangle(id);
+    if (!triangle.alive) continue;
+    const auto& corners = triangle.vertices;
+    const Rgb emission =
+        separate[mesh.vertex(corners[0]).surface.object] ? Rgb{} : triangle.emission;
+    for (const VertexId v : corners) {
+      incident += luminance(irradiance[v]) * triangle.area / 3;
+      const double b = luminance(emission + mesh.vertex(v).reflectance * irradiance[v]);
+      radiosity[id] = std::max(radiosity[id], b);
+    }
+    area += triangle.area;
+  }
+  if (!(incident > 0)) return;
+  mean_irradiance_ = incident / area;
+  bright_ = BrightPlaces(mesh, radiosity, kBright * mean_irradiance_);
+  for (const Rgb& e : irradiance) irradiance_.push_back(static_cast<float>(luminance(e)));
+}
+
+/// The irradiance there, as the mesh has it, lx; not less than what counts as dim.
+double HemisphereGather::expected_at(const Receiver& receiver) const {
+  constexpr double kDim = 0.25;  // of the mean
+  double expected = 0;
+  if (const auto place = lookup_.place(receiver.point, receiver.normal)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      expected += place->weights[k] * double(irradiance_[place->vertices[k]]);
+    }
+  }
+  return std::max(expected, kDim * mean_irradiance_);
+}
+
+/// Divides the cells in which bright places may lie, on a disk that is turned by an angle.
+void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, double cosine,
+                              double sine, Row<Landing>& row) const {
+  constexpr double kMostParts = 16;
+  constexpr double kFewestParts = 3;
+  constexpr double kMostRays = 2;  // for each cell of the row
+  row.divided.clear();
+  if (bright_.empty()) return;
+  thread_local std::vector<BrightPlaces::Cone> cones;
+  const double half_a_cell = 1.0 / row.grid;
+  bright_.seen_from(receiver.point, receiver.normal, half_a_cell / kMostStretch, cones);
+  if (cones.empty()) return;
+  const double expected = expected_at(receiver);
+  thread_local std::vector<double> brightest;  // by cell, lm/m²
+  brightest.assign(row.cells(), 0);
+  for (const BrightPlaces::Cone& cone : cones) {
+    Point2 p = turned({dot(cone.direction, frame.u), dot(cone.direction, frame.v)}, cosine, -sine);
+    const double off = std::hypot(p.x, p.y);
+    const double reach = kMostStretch * cone.chord;
+    p = to_square(off > 1 ? Point2{p.x / off, p.y / off} : p);
+    const auto cell = [&](double x) {
+      return std::clamp(static_cast<int>((x + 1) / 2 * row.grid), 0, row.grid - 1);
+    };
+    for (int j = cell(p.y - reach); j <= cell(p.y + reach); ++j) {
+      for (int i = cell(p.x - reach); i <= cell(p.x + reach); ++i) {
+        double& b = brightest[static_cast<std::size_t>(j * row.grid + i)];
+        b = std::max(b, cone.radiosity);
+      }
+    }
+  }
+  const auto parts = [&](double b) {
+    return std::min(std::sqrt(b / (kMostOfAll * expected)) / kUsualGrid, kMostParts);
+  };
+  double sum = 0;
+  for (const double b : brightest) sum += parts(b) * parts(b);
+  const double scale = std::min(1.0, std::sqrt(kMostRays * double(row.cells()) / sum));
+  for (std::size_t c = 0; c < brightest.size(); ++c) {
+    const double n = scale * parts(brightest[c]);
+    if (n < kFewestParts) continue;
+    row.divided.push_back({static_cast<std::uint16_t>(c), static_cast<std::uint16_t>(n)});
+  }
 }
 
 Landing HemisphereGather::land(const Ray& ray) const {
@@ -110,38 +234,35 @@ Landing HemisphereGather::land(const Ray& ray) const {
 }
 
 void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t seed,
-                             std::uint64_t id, std::span<Landing> row) const {
-  // Points this close to the rim would give rays inside the surface they start from.
-  constexpr double kRim = 0.99995;
+                             std::uint64_t id, Row<Landing>& row) const {
   Random random(seed, id);
   const Frame frame(receiver.normal);
   const Vec3 origin = receiver.point + receiver.normal * rays_.epsilon();
   const double turn = 2 * std::numbers::pi * random.uniform();
-  std::size_t ray = 0;
+  const double cosine = std::cos(turn), sine = std::sin(turn);
+  row.grid = grid;
+  divide(receiver, frame, cosine, sine, row);
+  row.rays.clear();
+  const auto send = [&](double i, double j) {
+    const Point2 square{2 * i / grid - 1, 2 * j / grid - 1};
+    const Point2 p = turned(to_disk({square.x * kRim, square.y * kRim}), cosine, sine);
+    const double squared = p.x * p.x + p.y * p.y;
+    row.rays.push_back(land({origin, frame.to_world({p.x, p.y, std::sqrt(1 - squared)})}));
+  };
   for (int j = 0; j < grid; ++j) {
     for (int i = 0; i < grid; ++i) {
-      const double a = 2 * (i + random.uniform()) / grid - 1;
-      const double b = 2 * (j + random.uniform()) / grid - 1;
-      const Polar p = concentric(a * kRim, b * kRim);
-      const Vec3 local{p.radius * std::cos(p.angle + turn), p.radius * std::sin(p.angle + turn),
-                       std::sqrt(1 - p.radius * p.radius)};
-      row[ray++] = land({origin, frame.to_world(local)});
+      const double x = i + random.uniform();
+      send(x, j + random.uniform());
     }
   }
-}
-
-std::vector<Landing> HemisphereGather::trace(std::span<const Receiver> receivers,
-                                             std::span<const std::uint32_t> ids, int grid,
-                                             std::uint64_t seed) const {
-  constexpr std::size_t kGrain = 16;
-  const auto cells = static_cast<std::size_t>(grid) * static_cast<std::size_t>(grid);
-  std::vector<Landing> rows(receivers.size() * cells);
-  parallel_for(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      trace(receivers[i], grid, seed, ids[i], std::span(rows).subspan(i * cells, cells));
+  for (const auto& [cell, parts] : row.divided) {
+    for (int j = 0; j < parts; ++j) {
+      for (int i = 0; i < parts; ++i) {
+        const double x = cell % grid + (i + random.uniform()) / parts;
+        send(x, cell / grid + (j + random.uniform()) / parts);
+      }
     }
-  });
-  return rows;
+  }
 }
 
 SiteLight HemisphereGather::light_of(const Site& site, std::span<const Rgb> irradiance) const {
@@ -155,32 +276,31 @@ SiteLight HemisphereGather::light_of(const Site& site, std::span<const Rgb> irra
           narrow(surface.reflectance * (irradiance[c] - irradiance[a]))};
 }
 
-Rgb HemisphereGather::reflected(std::span<const Landing> row,
-                                std::span<const Rgb> irradiance) const {
+Rgb HemisphereGather::reflected(const Row<Landing>& row, std::span<const Rgb> irradiance) const {
   return mean(row, [&](const Landing& landing) {
     return light_of(landing.site, irradiance).at(landing.weights) -
            surfaces_[landing.site.surface].emission;
   });
 }
 
-Rgb HemisphereGather::gather(std::span<const Landing> row, std::span<const Rgb> irradiance) const {
+Rgb HemisphereGather::gather(const Row<Landing>& row, std::span<const Rgb> irradiance) const {
   return mean(row, [&](const Landing& landing) {
     return light_of(landing.site, irradiance).at(landing.weights);
   });
 }
 
-Gathered HemisphereGather::gather_with_error(std::span<const Landing> row,
+Gathered HemisphereGather::gather_with_error(const Row<Landing>& row,
                                              std::span<const Rgb> irradiance) const {
   return mean_with_error(row, [&](const Landing& landing) {
     return light_of(landing.site, irradiance).at(landing.weights);
   });
 }
 
-Rgb gather(std::span<const Link> row, std::span<const SiteLight> sites) {
+Rgb gather(const Row<Link>& row, std::span<const SiteLight> sites) {
   return mean(row, [&](const Link& link) { return sites[link.site].at(link.weights); });
 }
 
-Gathered gather_with_error(std::span<const Link> row, std::span<const SiteLight> sites) {
+Gathered gather_with_error(const Row<Link>& row, std::span<const SiteLight> sites) {
   return mean_with_error(row, [&](const Link& link) { return sites[link.site].at(link.weights); });
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "isolux/discretization/mesh_lookup.h"
+#include "isolux/radiosity/bright_places.h"
 #include "isolux/radiosity/links.h"
+#include "isolux/radiosity/row.h"
 #include "isolux/radiosity/visibility.h"
 
 namespace isolux {
@@ -30,7 +32,9 @@ struct Gathered {
 ///
 /// The directions are those of a square of grid × grid cells, one point jittered in each, mapped to
 /// the disk (Shirley & Chiu 1997), turned by an angle of the receiver's own and lifted to the
-/// hemisphere (Malley 1988): the density goes with the cosine, and all rays weigh the same.
+/// hemisphere (Malley 1988): the density goes with the cosine, and all cells weigh the same. Cells
+/// in which places may lie that are far brighter than the receiver, such as a lamp's reflector,
+/// are divided, so that no ray carries a large part of the light.
 class HemisphereGather {
  public:
   /// The most cells that a solve asks for.
@@ -38,23 +42,17 @@ class HemisphereGather {
 
   /// `separate`, by object: 1 where its emission is left out here because it is gathered as a
   /// light (separate_lights()). `rays` and `mesh` must outlive this; triangles
-  /// that the mesh gets later are not seen, but vertices stay valid.
+  /// that the mesh gets later are not seen, but vertices stay valid. No cell is divided unless
+  /// `irradiance` (lx, at the mesh's vertices) tells where it is bright.
   HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
-                   std::span<const std::uint8_t> separate);
+                   std::span<const std::uint8_t> separate, std::span<const Rgb> irradiance = {});
 
-  /// The row of one receiver: where its rays land, cell by cell, into `row` (grid² entries).
-  /// The same seed and id give the same directions.
+  /// The row of one receiver: where its rays land. The same seed and id give the same directions.
   void trace(const Receiver& receiver, int grid, std::uint64_t seed, std::uint64_t id,
-             std::span<Landing> row) const;
-
-  /// The rows of many receivers, traced in parallel, one after the other in the result; receiver i
-  /// has the id ids[i].
-  std::vector<Landing> trace(std::span<const Receiver> receivers,
-                             std::span<const std::uint32_t> ids, int grid,
-                             std::uint64_t seed) const;
+             Row<Landing>& row) const;
 
   /// The part of gather() that is reflected, without what the surfaces emit by themselves.
-  Rgb reflected(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
+  Rgb reflected(const Row<Landing>& row, std::span<const Rgb> irradiance) const;
 
   /// Whether no light comes back from there: what leaves the scene, or meets a black back.
   bool lost(const Site& site) const { return site.surface >= surfaces_.size() - 2; }
@@ -63,19 +61,24 @@ class HemisphereGather {
   static std::size_t surface_count(const Scene& scene) { return 3 * scene.objects.size() + 2; }
 
   /// The irradiance that the row's surfaces give with `irradiance` (lx) at the mesh's vertices.
-  Rgb gather(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
+  Rgb gather(const Row<Landing>& row, std::span<const Rgb> irradiance) const;
 
   /// The same with the error of having only so many rays, from the second differences between
   /// neighbouring cells: (f₋ − 2f + f₊)² / 6 is on average the variance of a jittered point in the
-  /// middle cell where the radiosity is linear, and not less elsewhere. Of a grid of less than 3
-  /// cells a side, the error is the spread of all rays.
-  Gathered gather_with_error(std::span<const Landing> row, std::span<const Rgb> irradiance) const;
+  /// middle cell where the radiosity is linear, and not less elsewhere; within divided cells
+  /// likewise. Of a grid of less than 3 cells a side, the error is the spread of all its rays.
+  Gathered gather_with_error(const Row<Landing>& row, std::span<const Rgb> irradiance) const;
 
   /// What sites send out with `irradiance` (lx) at the mesh's vertices, for the two below.
   SiteLight light_of(const Site& site, std::span<const Rgb> irradiance) const;
 
  private:
   Landing land(const Ray& ray) const;
+  void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
+                          std::span<const Rgb> irradiance);
+  void divide(const Receiver& receiver, const Frame& frame, double cosine, double sine,
+              Row<Landing>& row) const;
+  double expected_at(const Receiver& receiver) const;
 
   /// What a surface does to light.
   struct Surface {
@@ -86,12 +89,15 @@ class HemisphereGather {
   const RayCaster& rays_;
   MeshLookup lookup_;
   std::vector<Surface> surfaces_;  // by Site::surface
+  BrightPlaces bright_;
+  std::vector<float> irradiance_;  // by vertex, lx, if there are bright places
+  double mean_irradiance_ = 0;     // lx
 };
 
 /// HemisphereGather::gather() of a row that is kept, from the light of all sites.
-Rgb gather(std::span<const Link> row, std::span<const SiteLight> sites);
+Rgb gather(const Row<Link>& row, std::span<const SiteLight> sites);
 
 /// HemisphereGather::gather_with_error() of a row that is kept.
-Gathered gather_with_error(std::span<const Link> row, std::span<const SiteLight> sites);
+Gathered gather_with_error(const Row<Link>& row, std::span<const SiteLight> sites);
 
 }  // namespace isolux

@@ -14,12 +14,12 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
                                     std::uint64_t seed) {
   constexpr std::size_t kGrain = 64;
   const DirectLight lights(rays);
-  const HemisphereGather hemisphere(rays, mesh, lights.separate());
   std::vector<Rgb> irradiance, errors;
   for (const Vertex& vertex : mesh.vertices()) {
     irradiance.push_back(vertex.mean_irradiance);
     errors.push_back(gray(vertex.error));
   }
+  const HemisphereGather hemisphere(rays, mesh, lights.separate(), irradiance);
   std::vector<Rgb> direct(receivers.size());
   std::vector<double> deviation(receivers.size());
   lights.irradiance(receivers, direct, deviation);
@@ -41,12 +41,11 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
                  HemisphereGather::kFinestGrid);
   std::vector<Illumination> result(receivers.size());
   parallel_for(receivers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Landing> row;
+    Row<Landing> row;
     for (std::size_t i = begin; i < end; ++i) {
       Gathered indirect;
       for (int side = grid, finest = std::min(grid << kDoublings, HemisphereGather::kFinestGrid);;
            side = std::min(2 * side, finest)) {
-        row.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
         hemisphere.trace(receivers[i], side, seed, i, row);
         indirect = hemisphere.gather_with_error(row, irradiance);
         result[i].irradiance = direct[i] + indirect.irradiance;

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "isolux checkpoint 2";
+constexpr const char* kFormat = "isolux checkpoint 3";
 
 [[noreturn]] void damaged(const char* key) {
   throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
@@ -50,7 +50,7 @@ struct PackedLight {
   double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0,
          excess = 0, glimpse = 0, glimpse_deviation = 0;
   MeshPlace among;
-  std::uint32_t depth = 0, gathers = 0;
+  std::uint32_t depth = 0, gathers = 0, grid = 0, divided = 0;
   std::uint64_t links = 0;
 };
 
@@ -171,14 +171,18 @@ json state_to_json(const GatheringState& state) {
   json object;
   std::vector<PackedLight> lights;
   std::vector<Link> links;
+  std::vector<DividedCell> divided;
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend,
                       l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among, l.depth,
-                      l.gathers, l.row.size()});
-    links.insert(links.end(), l.row.begin(), l.row.end());
+                      l.gathers, static_cast<std::uint32_t>(l.row.grid),
+                      static_cast<std::uint32_t>(l.row.divided.size()), l.row.rays.size()});
+    links.insert(links.end(), l.row.rays.begin(), l.row.rays.end());
+    divided.insert(divided.end(), l.row.divided.begin(), l.row.divided.end());
   }
   put(object, "light", lights);
   put(object, "links", links);
+  put(object, "divided", divided);
   put(object, "sites", std::vector(state.sites.sites().begin(), state.sites.sites().end()));
   put(object, "sent", state.sent);
   put_errors(object, "direct_error", state.direct_error);
@@ -196,6 +200,17 @@ std::unordered_map<std::uint64_t, float> get_errors(const json& object, const ch
   return errors;
 }
 
+/// A row has a ray for each cell and part of one.
+void check(const Row<Link>& row) {
+  if (row.grid < 0 || row.grid > HemisphereGather::kFinestGrid) damaged("light");
+  std::size_t count = row.cells();
+  for (const DividedCell& divided : row.divided) {
+    if (divided.cell >= row.cells() || divided.parts == 0) damaged("divided");
+    count += divided.count();
+  }
+  if (count != row.rays.size()) damaged("links");
+}
+
 GatheringState state_from_json(const json& object, Triangulation mesh, std::size_t surface_count) {
   GatheringState state(std::move(mesh));
   const std::size_t vertex_count = state.mesh.vertices().size();
@@ -209,11 +224,26 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   for (const Link& link : links) {
     if (link.site >= state.sites.sites().size()) damaged("links");
   }
-  std::size_t next = 0;
+  const auto divided = get<DividedCell>(object, "divided");
+  std::size_t next = 0, next_divided = 0;
   for (const PackedLight& p : get<PackedLight>(object, "light")) {
-    state.light.push_back({p.direct, p.indirect, p.direct_deviation, p.indirect_deviation,
-                           p.own_bend, p.bend, p.escaped, p.excess, p.glimpse, p.glimpse_deviation,
-                           p.among, p.depth, p.gathers != 0, take(links, next, p.links, "links")});
+    state.light.push_back(
+        {p.direct,
+         p.indirect,
+         p.direct_deviation,
+         p.indirect_deviation,
+         p.own_bend,
+         p.bend,
+         p.escaped,
+         p.excess,
+         p.glimpse,
+         p.glimpse_deviation,
+         p.among,
+         p.depth,
+         p.gathers != 0,
+         {static_cast<int>(p.grid), take(divided, next_divided, p.divided, "divided"),
+          take(links, next, p.links, "links")}});
+    check(state.light.back().row);
   }
   state.sent = get<Rgb>(object, "sent");
   if (state.light.size() != vertex_count) damaged("light");
