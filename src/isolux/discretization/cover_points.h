@@ -107,6 +107,7 @@ class CoverPoints {
                                           double reached) const;
   static bool met(const std::vector<CreasePoint>& chain, const CreasePoint& next, double step);
   void even_out(std::vector<CreasePoint>& chain) const;
+  void fit_spacings(std::vector<CreasePoint>& chain, bool closed) const;
   void commit(const std::vector<CreasePoint>& chain, bool closed);
   void look_across(const CreasePoint& crease);
   double fineness(double size) const;

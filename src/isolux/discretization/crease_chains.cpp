@@ -155,6 +155,21 @@ void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
   }
 }
 
+/// No spacing along a crease is wider than to the further of the neighbours there: where something
+/// stood in the way of a longer step, points inside must stand closer, too.
+void CoverPoints::fit_spacings(std::vector<CreasePoint>& chain, bool closed) const {
+  constexpr double kShortest = 1.0 / 32;
+  const std::size_t n = chain.size();
+  for (std::size_t i = 0; i < n && n > 1; ++i) {
+    const auto to = [&](std::size_t k) {
+      return distance(chain[i].point.position, chain[k % n].point.position);
+    };
+    const double before = i > 0 || closed ? to(i + n - 1) : 0;
+    const double after = i + 1 < n || closed ? to(i + 1) : 0;
+    chain[i].shorten(std::max({before, after, kShortest * spacing_}));
+  }
+}
+
 void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
   constexpr std::uint32_t kNone = ~0u;
   std::uint32_t previous = kNone, first = kNone;
@@ -262,6 +277,7 @@ void CoverPoints::trace(const CreaseSeed& seed) {
     std::reverse(whole.begin(), whole.end());
   }
   look_across(start);
+  fit_spacings(whole, closed);
   commit(whole, closed);
 }
 
