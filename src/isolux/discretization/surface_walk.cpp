@@ -1,5 +1,7 @@
 #include "isolux/discretization/surface_walk.h"
 
+#include <algorithm>
+
 namespace isolux {
 namespace {
 
@@ -31,13 +33,20 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
   const Ray ray{from.position + along + from.normal * reach, -from.normal};
   thread_local std::vector<SurfaceHit> hits;
   rays_.all_hits(ray, {0, 2 * reach}, hits);
-  const SurfaceHit* nearest = nullptr;
-  for (const SurfaceHit& hit : hits) {
-    if (dot(hit.normal, from.normal) < cos_tolerance_) continue;
-    if (!nearest || std::abs(hit.t - reach) < std::abs(nearest->t - reach)) nearest = &hit;
-  }
-  if (!nearest) return std::nullopt;
-  std::optional<ZonePoint> found = at(*nearest);
+  std::erase_if(
+      hits, [&](const SurfaceHit& hit) { return dot(hit.normal, from.normal) < cos_tolerance_; });
+  if (hits.empty()) return std::nullopt;
+  const auto height = [&](const SurfaceHit& hit) { return std::abs(hit.t - reach); };
+  std::ranges::stable_sort(hits, {}, height);
+  // Under a bent sheet, another one may lie nearer to the tangent plane, but hidden.
+  const auto in_sight = [&](const SurfaceHit& hit) {
+    SurfacePoint there;
+    there.position = hit.point, there.normal = hit.normal;
+    return open(from, there);
+  };
+  auto sheet = hits.begin();
+  if (hits.size() > 1) sheet = std::ranges::find_if(hits, in_sight);
+  std::optional<ZonePoint> found = at(sheet != hits.end() ? *sheet : hits.front());
   if (found && (found->reflectance != from.reflectance || found->emission != from.emission)) {
     return std::nullopt;
   }

@@ -62,7 +62,7 @@ bool CoverPoints::turns_at_once(const ZonePoint& point, const ZonePoint& there, 
   for (int i = 0; i < kHalvings; ++i) {
     const double t = (near + far) / 2;
     const auto found = walk_.step(point, point.position + d * t);
-    if (!found) return false;
+    if (!found) return true;  // the walk over a round surface is not broken off
     if (angle_between(found->normal, before) < angle_between(found->normal, behind)) {
       near = t, before = found->normal;
     } else {
