@@ -1,6 +1,7 @@
 #include "isolux/discretization/surface_walk.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace isolux {
 namespace {
@@ -38,14 +39,18 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
   if (hits.empty()) return std::nullopt;
   const auto height = [&](const SurfaceHit& hit) { return std::abs(hit.t - reach); };
   std::ranges::stable_sort(hits, {}, height);
-  // Under a bent sheet, another one may lie nearer to the tangent plane, but hidden.
-  const auto in_sight = [&](const SurfaceHit& hit) {
+  // Under a bent sheet, another one may lie nearer to the tangent plane, but hidden. Nor does the
+  // surface go on where it would have to rise more than it has turned.
+  const auto goes_on = [&](const SurfaceHit& hit) {
+    const double cosine = dot(hit.normal, from.normal);
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    if (height(hit) * cosine > length(along) * sine + rays_.epsilon()) return false;
     SurfacePoint there;
     there.position = hit.point, there.normal = hit.normal;
     return open(from, there);
   };
   auto sheet = hits.begin();
-  if (hits.size() > 1) sheet = std::ranges::find_if(hits, in_sight);
+  if (hits.size() > 1) sheet = std::ranges::find_if(hits, goes_on);
   std::optional<ZonePoint> found = at(sheet != hits.end() ? *sheet : hits.front());
   if (found && (found->reflectance != from.reflectance || found->emission != from.emission)) {
     return std::nullopt;
