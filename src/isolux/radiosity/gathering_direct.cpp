@@ -10,7 +10,7 @@ namespace isolux {
 namespace {
 
 // The part of the tolerance that interpolation of E_d may cost.
-constexpr double kDirectShare = 0.5;
+constexpr double kDirectShare = 0.55;
 
 // Edges are not split to less than this part of the tolerance times the scene's diagonal.
 constexpr double kHairline = 0.1;

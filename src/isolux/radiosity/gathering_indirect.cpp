@@ -6,7 +6,7 @@
 namespace isolux {
 namespace {
 
-constexpr double kIndirectShare = 0.55;  // of the tolerance: interpolation of E_i
+constexpr double kIndirectShare = 0.65;  // of the tolerance: interpolation of E_i
 constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain from finer triangles
 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what
@@ -228,8 +228,9 @@ void Gathering::learn_bend(double foreseen, double found, double noise, std::siz
   if (n < kFewest || !(foreseen > 0)) return;
   // The square of something normal has twice the square of its variance as its own.
   const double at_most = std::max(0.0, found) + std::sqrt(2 * noise);
-  const double factor = kMargin * std::sqrt(at_most / foreseen);
-  state_.bend_scale = std::clamp(state_.bend_scale * std::clamp(factor, 0.5, 2.0), 0.1, 1.5);
+  // Half of the way, since what is looked at from one round to the next is not alike.
+  const double factor = std::sqrt(kMargin * std::sqrt(at_most / foreseen));
+  state_.bend_scale = std::clamp(state_.bend_scale * std::clamp(factor, 0.7, 1.4), 0.1, 1.5);
 }
 
 /// The vertices whose rays landed on edges that are split since, where this matters: the mesh knows

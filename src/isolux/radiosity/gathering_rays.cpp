@@ -8,7 +8,7 @@
 namespace isolux {
 namespace {
 
-constexpr double kSamplingShare = 0.6;  // of the tolerance: σ of E_i
+constexpr double kSamplingShare = 0.7;  // of the tolerance: σ of E_i
 
 // Stands for the number of a site that is not listed yet.
 constexpr std::uint32_t kFresh = std::numeric_limits<std::uint32_t>::max();
