@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include "isolux/geometry/bezier.h"
 #include "isolux/geometry/blob.h"
 #include "isolux/geometry/box.h"
 #include "isolux/geometry/complement.h"
@@ -198,38 +197,6 @@ void add_flat(std::vector<Specimen>& zoo) {
       {"Frame", std::make_shared<Polygon>(l, holes), plane_level({0, 0, 1}, {0, 0, 1}), l});
 }
 
-/// Patches over 3 × 3 m of the plane z = 1, side by side along x: their control points lie evenly
-/// over it, so that they are the graph of a bicubic function.
-void add_bezier(std::vector<Specimen>& zoo) {
-  const std::vector<std::vector<double>> heights = {
-      {0, 0, 0, 1, 0, 2, 0, 1, 0, -1, 3, 1, 0, 0, 0, 0},
-      {1, 2, 0, 0, 1, 2, 2, 0, 1, 2, -2, 1, 0, 0, 1, 1}};
-  std::vector<Bezier::Points> patches(2);
-  std::vector<Bicubic> graphs;
-  for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t i = 0; i < 16; ++i) {
-      const double x = static_cast<double>(3 * k + i % 4), y = static_cast<double>(i / 4);
-      patches[k].push_back({x, y, 1 + heights[k][i]});
-    }
-    Bicubic& graph = graphs.emplace_back();
-    std::copy(heights[k].begin(), heights[k].end(), graph.c.begin());
-  }
-  const Level level = [graphs](const Vec3& p) {
-    const std::size_t k = p.x < 3 ? 0 : 1;
-    const auto f =
-        graphs[k].slopes_at(CubicBasis(p.x / 3 - static_cast<double>(k)), CubicBasis(p.y / 3));
-    return (p.z - 1 - f.value) / length({f.along_u / 3, f.along_v / 3, 1});
-  };
-  zoo.push_back({"BezierPatch",
-                 std::make_shared<Bezier>(std::vector<Bezier::Points>{patches[0]}),
-                 level,
-                 {{0, 0, 1}, {3, 0, 2}, {3, 3, 1}, {0, 3, 1}}});
-  zoo.push_back({"BezierPatches",
-                 std::make_shared<Bezier>(patches),
-                 level,
-                 {{0, 0, 1}, {3, 0, 2}, {6, 3, 2}}});
-}
-
 void add_composed(std::vector<Specimen>& zoo) {
   const Vec3 lower{-1, -1, -1}, upper{1, 1, 1};
   const auto box = std::make_shared<Box>(lower, upper);
@@ -281,7 +248,7 @@ const std::vector<Specimen>& zoo() {
     add_blobs(all);
     add_implicit(all);
     add_flat(all);
-    add_bezier(all);
+    add_patches(all);
     add_swept(all);
     add_composed(all);
     return all;

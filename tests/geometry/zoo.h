@@ -32,6 +32,9 @@ const std::vector<Specimen>& zoo();
 /// Adds what is made from outlines, curves and grids: swept_zoo.cpp.
 void add_swept(std::vector<Specimen>& zoo);
 
+/// Adds what is made of curved patches: patch_zoo.cpp.
+void add_patches(std::vector<Specimen>& zoo);
+
 /// Points on a circle.
 std::vector<Vec3> rim(Vec3 center, Vec3 normal, double r);
 

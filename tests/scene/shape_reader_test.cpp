@@ -143,6 +143,30 @@ TEST(ShapeReader, ABezierSurface) {
   EXPECT_LT(distance(hits[0].normal, {0, 0, 1}), 1e-12);
 }
 
+// A quarter of a tube: the middle weight of an arc of 90° is √½.
+TEST(ShapeReader, ANurbsSurface) {
+  const std::string net =
+      "nurbs: {degrees: [2, 1], u_knots: [0, 0, 0, 1, 1, 1], v_knots: [0, 0, 1, 1], "
+      "points: [[[1, 0, 0], [1, 1, 0], [0, 1, 0]], [[1, 0, 200 cm], [1, 1, 2], [0, 1, 2]]]";
+  const auto tube =
+      shape(net + ", weights: [[1, 0.70710678118654752, 1], " + "[1, 0.70710678118654752, 1]]}");
+  EXPECT_FALSE(tube->solid());
+  EXPECT_NEAR(surface_area(*tube).value(), kPi, 1e-9);
+  const auto hit_from_axis = [](const Shape& surface) {
+    Hits hits;
+    surface.intersect({{0, 0, 1}, {3, 4, 0}}, hits);
+    return hits.at(0);
+  };
+  EXPECT_LT(distance(hit_from_axis(*tube).point, {0.6, 0.8, 1}), 1e-14);
+  EXPECT_LT(distance(hit_from_axis(*tube).normal, {0.6, 0.8, 0}), 1e-12);
+  // Without weights it is a parabola's arc, with its vertex between the middle points.
+  const auto parabola = shape(net + "}");
+  Hits hits;
+  parabola->intersect({{0, 0, 1}, {1, 1, 0}}, hits);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_LT(distance(hits[0].point, {0.75, 0.75, 1}), 1e-14);
+}
+
 TEST(ShapeReader, AnInwardBoxIsARoom) {
   const auto room = shape("box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}");
   Hits hits;

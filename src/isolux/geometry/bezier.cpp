@@ -8,7 +8,8 @@
 namespace isolux {
 
 Bezier::Bezier(std::vector<Points> patches)
-    : PatchSurface(control_points(patches), "patches"), given_(std::move(patches)) {}
+    : PatchSurface(control_points(patches), "patches", Degenerate::refused),
+      given_(std::move(patches)) {}
 
 std::vector<PatchSurface::ControlPoints> Bezier::control_points(
     const std::vector<Points>& patches) {

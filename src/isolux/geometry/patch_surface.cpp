@@ -41,6 +41,26 @@ double area_of(const RationalPatch& patch, std::size_t cells) {
   return sum / (4 * n * n);
 }
 
+/// Cells are halved until that changes nothing, or there are enough.
+double area_of(const RationalPatch& patch) {
+  constexpr double kSame = 1e-9;
+  constexpr std::size_t kMostCells = 8;
+  double coarse = 0, fine = area_of(patch, 1);
+  for (std::size_t cells = 2; cells <= kMostCells && std::abs(fine - coarse) > kSame * fine;
+       cells *= 2) {
+    coarse = fine, fine = area_of(patch, cells);
+  }
+  return fine;
+}
+
+/// Whether it is a surface, and no line or point.
+bool has_area(const RationalPatch& patch) {
+  Bounds box;
+  for (std::size_t i = 0; i < 16; ++i) box.include(patch.point(i));
+  const double size = box.diagonal();
+  return size > 1e-9 && area_of(patch, 1) > 1e-12 * size * size;
+}
+
 }  // namespace
 
 /// A line in the local frame, its origin the point nearest to the centre, with unit direction.
@@ -54,7 +74,8 @@ struct PatchSurface::Line {
   }
 };
 
-PatchSurface::PatchSurface(const std::vector<ControlPoints>& patches, std::string_view field) {
+PatchSurface::PatchSurface(const std::vector<ControlPoints>& patches, std::string_view field,
+                           Degenerate degenerate) {
   if (patches.empty()) throw InputError(fmt::format("{}: must be one at least", field));
   for (const ControlPoints& points : patches) {
     for (const ControlPoint& p : points) {
@@ -68,18 +89,21 @@ PatchSurface::PatchSurface(const std::vector<ControlPoints>& patches, std::strin
   const int most_halvings = std::min(
       kMostHalvings, static_cast<int>(std::bit_width(1 + kMostPieces / patches.size())) - 1);
   for (const ControlPoints& points : patches) {
-    RationalPatch& patch = patches_.emplace_back();
+    RationalPatch patch;
     for (std::size_t i = 0; i < 16; ++i) {
       const auto& [place, weight] = points[i];
       const Vec3 p = (place - center_) / unit_ * weight;
       for (int axis = 0; axis < 3; ++axis) patch.part[axis].c[i] = p[axis];
       patch.part[3].c[i] = weight;
     }
-    if (!(area_of(patch, 1) > 1e-12)) {
-      throw InputError(fmt::format("{}: number {} has no area", field, patches_.size()));
+    if (has_area(patch)) {
+      patches_.push_back(patch);
+      add_pieces(patch, most_halvings);
+    } else if (degenerate == Degenerate::refused) {
+      throw InputError(fmt::format("{}: number {} has no area", field, patches_.size() + 1));
     }
-    add_pieces(patch, most_halvings);
   }
+  if (patches_.empty()) throw InputError(fmt::format("{}: the surface has no area", field));
   std::vector<Bounds> boxes;
   Bounds all;
   for (const PatchPiece& piece : pieces_) {
@@ -173,16 +197,17 @@ bool PatchSurface::occludes(const Ray& ray, double t_min, double t_max) const {
 }
 
 std::optional<double> PatchSurface::area() const {
-  constexpr std::size_t kCells = 8;
   double sum = 0;
-  for (const RationalPatch& patch : patches_) sum += area_of(patch, kCells);
+  for (const RationalPatch& patch : patches_) sum += area_of(patch);
   return sum * unit_ * unit_;
 }
 
 /// The same cells for all patches, so that those that share an edge share its points; scaled about
 /// the middle of all.
 std::optional<TriangleSoup> PatchSurface::triangulate(double max_edge) const {
-  constexpr double kLeastCells = 8;
+  const double count = static_cast<double>(patches_.size());
+  const double least_cells =
+      std::clamp(std::floor(std::sqrt(kMostTriangles / (4 * count))), 1.0, 8.0);
   double longest = 0;  // of the control polygons, no shorter than their curves
   for (const RationalPatch& patch : patches_) {
     const auto side = [&](std::size_t i, std::size_t j) {
@@ -197,8 +222,8 @@ std::optional<TriangleSoup> PatchSurface::triangulate(double max_edge) const {
       longest = std::max({longest, row, column});
     }
   }
-  const double cells = std::max(kLeastCells, piece_count(longest, max_edge));
-  require_few_triangles(2 * cells * cells * static_cast<double>(patches_.size()));
+  const double cells = std::max(least_cells, piece_count(longest, max_edge));
+  require_few_triangles(2 * cells * cells * count);
   TriangleSoup all;
   for (const RationalPatch& patch : patches_) {
     append(all, grid(cells, cells, false, [&](double u, double v) {

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "isolux/geometry/box_tree.h"
+#include "isolux/geometry/control_point.h"
 #include "isolux/geometry/patch_piece.h"
 #include "isolux/geometry/shape.h"
 
@@ -30,16 +31,14 @@ class PatchSurface : public Shape {
   bool part_occludes(std::size_t part, const Ray& ray, double t_min, double t_max) const override;
 
  protected:
-  /// A control point (m) and its weight, more than 0.
-  struct ControlPoint {
-    Vec3 place;
-    double weight = 1;
-  };
   using ControlPoints = std::array<ControlPoint, 16>;
+  /// What is done with patches that have no area.
+  enum class Degenerate { refused, left_out };
 
   /// Four rows of control points along u for each patch, one after the other along v. One or more
-  /// of them, each with an area; edges may shrink to a point. Messages name `field`.
-  PatchSurface(const std::vector<ControlPoints>& patches, std::string_view field);
+  /// of them with an area; edges may shrink to a point. Messages name `field`.
+  PatchSurface(const std::vector<ControlPoints>& patches, std::string_view field,
+               Degenerate degenerate);
 
  private:
   struct Line;

@@ -121,8 +121,10 @@ TriangleSoup grid(double nu, double nv, bool closed,
     }
   }
   std::erase_if(soup.triangles, [&](const Corners& t) {
+    constexpr double kSame = 1e-9;  // of the longest side
     const Vec3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
-    return a == b || b == c || c == a;
+    const auto [least, most] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});
+    return least <= kSame * most;
   });
   return soup;
 }

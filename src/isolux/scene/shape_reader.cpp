@@ -248,6 +248,7 @@ constexpr ShapeKind kShapeKinds[] = {
     {"sweep", plain<read_sweep>},
     {"height_field", plain<read_height_field>},
     {"bezier", plain<read_bezier>},
+    {"nurbs", plain<read_nurbs>},
     {"union", read_csg<CsgOperation::unite>},
     {"intersection", read_csg<CsgOperation::intersect>},
     {"difference", read_csg<CsgOperation::subtract>},

@@ -2,6 +2,7 @@
 
 #include "isolux/geometry/bezier.h"
 #include "isolux/geometry/height_field.h"
+#include "isolux/geometry/nurbs.h"
 #include "isolux/geometry/polygon.h"
 #include "isolux/geometry/prism.h"
 #include "isolux/geometry/revolution.h"
@@ -23,6 +24,12 @@ std::vector<std::vector<Vec3>> read_holes(const Fields& fields) {
     for (const Value& hole : list->items()) holes.push_back(read_points(hole));
   }
   return holes;
+}
+
+KnotVector read_knots(const Value& degree, const Value& knots) {
+  KnotVector vector{static_cast<std::size_t>(degree.integer(1, 3)), {}};
+  for (const Value& knot : knots.items()) vector.knots.push_back(knot.number());
+  return vector;
 }
 
 PrismTop read_prism_top(const Fields& fields) {
@@ -128,6 +135,24 @@ ShapePtr read_bezier(const Value& value) {
     for (const Value& point : patch.items(16, 16)) points.push_back(point.point());
   }
   return make_shape<Bezier>(value, std::move(patches));
+}
+
+ShapePtr read_nurbs(const Value& value) {
+  const Fields fields(value, {"degrees", "u_knots", "v_knots", "points", "weights"});
+  const std::vector<Value> degrees = fields.require("degrees").items(2, 2);
+  KnotVector u = read_knots(degrees[0], fields.require("u_knots"));
+  KnotVector v = read_knots(degrees[1], fields.require("v_knots"));
+  Nurbs::Points points;
+  for (const Value& row : fields.require("points").items(2)) points.push_back(read_points(row, 2));
+  Nurbs::Weights weights;
+  if (const auto list = fields.find("weights")) {
+    for (const Value& row : list->items(2)) {
+      auto& numbers = weights.emplace_back();
+      for (const Value& weight : row.items(2)) numbers.push_back(weight.number());
+    }
+  }
+  return make_shape<Nurbs>(value, std::move(u), std::move(v), std::move(points),
+                           std::move(weights));
 }
 
 }  // namespace isolux

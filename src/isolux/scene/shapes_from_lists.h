@@ -13,5 +13,6 @@ ShapePtr read_revolution(const Value& value);
 ShapePtr read_sweep(const Value& value);
 ShapePtr read_height_field(const Value& value);
 ShapePtr read_bezier(const Value& value);
+ShapePtr read_nurbs(const Value& value);
 
 }  // namespace isolux
