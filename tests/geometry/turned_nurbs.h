@@ -19,7 +19,8 @@ struct RationalCurve {
 /// An arc about (x, 0, 0) in the plane y = 0 from one to the other multiple of 45° above x, an even
 /// number of them apart: a parabola's arc in homogeneous coordinates for each 90°.
 inline RationalCurve arc(double x, double radius, int from, int to) {
-  RationalCurve curve{{2, {0}}, {}};
+  RationalCurve curve;
+  curve.knots = {2, {0}};
   for (int k = from; k <= to; ++k) {
     const bool between = (k - from) % 2 != 0;
     const double angle = k * std::numbers::pi / 4;
@@ -53,7 +54,10 @@ inline std::shared_ptr<const Nurbs> turned(const RationalCurve& curve, const Aff
 
 /// A straight line.
 inline RationalCurve line(const Vec3& from, const Vec3& to) {
-  return {{1, {0, 0, 1, 1}}, {{from}, {to}}};
+  RationalCurve curve;
+  curve.knots = {1, {0, 0, 1, 1}};
+  curve.points = {{from}, {to}};
+  return curve;
 }
 
 }  // namespace isolux

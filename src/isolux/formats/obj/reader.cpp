@@ -150,6 +150,9 @@ void Reader::read(const Statement& s) {
   if (word == "l" || word == "p") {
     return assembly_.notes().left_out(word == "l" ? "l" : "p", "lines and points have no area");
   }
+  if (word == "curv" || word == "surf") {
+    return assembly_.notes().left_out(word == "surf" ? "surf" : "curv", "no free-form geometry");
+  }
   ++unknown_;
 }
 
