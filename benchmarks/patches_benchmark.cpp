@@ -1,10 +1,11 @@
-// Rays to curved surfaces: a sphere of Bézier patches and a bent one, beside a true sphere. Items
-// are rays.
+// Rays to curved surfaces: spheres of Bézier patches and as NURBS and a bent patch, beside a true
+// sphere. Items are rays.
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
+#include "geometry/turned_nurbs.h"
 #include "isolux/core/random.h"
 #include "isolux/geometry/bezier.h"
 #include "isolux/geometry/sphere.h"
@@ -96,15 +97,20 @@ void whole(benchmark::State& state, ShapePtr (*make)()) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()));
 }
 
+ShapePtr nurbs_sphere() { return turned(arc(0, 1, -2, 2)); }
+
 ShapePtr sphere() { return std::make_shared<Sphere>(Vec3{}, 1); }
 
 BENCHMARK_CAPTURE(nearest, sphere, sphere);
 BENCHMARK_CAPTURE(nearest, globe, globe);
+BENCHMARK_CAPTURE(nearest, nurbs_sphere, nurbs_sphere);
 BENCHMARK_CAPTURE(nearest, sail, sail);
 BENCHMARK_CAPTURE(occluded, sphere, sphere);
 BENCHMARK_CAPTURE(occluded, globe, globe);
+BENCHMARK_CAPTURE(occluded, nurbs_sphere, nurbs_sphere);
 BENCHMARK_CAPTURE(occluded, sail, sail);
 BENCHMARK_CAPTURE(whole, globe, globe);
+BENCHMARK_CAPTURE(whole, nurbs_sphere, nurbs_sphere);
 BENCHMARK_CAPTURE(whole, sail, sail);
 
 }  // namespace

@@ -33,6 +33,15 @@ TEST(Obj, FacesOfOneGroupAndMaterialAreOneMesh) {
   EXPECT_THAT(file.notes, Contains(HasSubstr("1 triangle between the same points")));
 }
 
+TEST(Obj, FreeFormSurfacesAreNamedAsLeftOut) {
+  const SceneFile file = scene_in("a.obj", kSquare +
+                                               "f 1 2 3 4\ncstype bspline\ndeg 1 1\n"
+                                               "surf 0 1 0 1 1 2 4 3\nparm u 0 0 1 1\n"
+                                               "parm v 0 0 1 1\nend\n");
+  EXPECT_EQ(file.scene.objects.size(), 1u);
+  EXPECT_THAT(file.notes, Contains(HasSubstr("'surf' left out: no free-form geometry")));
+}
+
 TEST(Obj, MaterialsGiveReflectanceAndLight) {
   const SceneFile file =
       with_materials("newmtl lamp\nKd 0.25 0.5 1.5\nKe 1 2 3\nKs .1 .1 .1\nd 0.5\n",

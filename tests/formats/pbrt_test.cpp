@@ -38,6 +38,35 @@ TEST(Pbrt, ShapesHaveTheirArea) {
   }
 }
 
+// A quarter of a tube of radius 1 and height 2, whose points come times their weight.
+const std::string kTube =
+    "Shape \"nurbs\" \"integer nu\" 3 \"integer uorder\" 3 \"float uknots\" [0 0 0 1 1 1] "
+    "\"integer nv\" 2 \"integer vorder\" 2 \"float vknots\" [0 0 1 1] "
+    "\"float Pw\" [1 0 0 1  .70710678118654752 .70710678118654752 0 .70710678118654752  0 1 0 1"
+    " 1 0 2 1  .70710678118654752 .70710678118654752 1.4142135623730951 .70710678118654752"
+    " 0 1 2 1]";
+
+TEST(Pbrt, NurbsAreTrueSurfaces) {
+  const SceneFile file = scene_in("a.pbrt", "WorldBegin Translate 0 0 5 " + kTube);
+  const Shape& tube = *file.scene.objects.at(0).shape;
+  EXPECT_NEAR(surface_area(tube).value(), pi, 1e-9);
+  Hits hits;
+  tube.intersect({{0, 0, 6}, {0.6, 0.8, 0}}, hits);
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_NEAR(hits[0].t, 1, 1e-12);
+  EXPECT_LT(distance(hits[0].normal, {0.6, 0.8, 0}), 1e-9);
+
+  const std::string flat =
+      "\"integer nu\" 2 \"integer nv\" 2 \"integer vorder\" 2 \"float vknots\" [0 0 1 1] "
+      "\"float uknots\" [0 0 1 1] \"point P\" [0 0 0 2 0 0 0 3 0 2 3 0] \"integer uorder\" ";
+  const SceneFile plain = scene_in("a.pbrt", "WorldBegin Shape \"nurbs\" \"float u1\" .5 " + flat +
+                                                 "2\n" + "Shape \"nurbs\" " + flat + "5");
+  ASSERT_EQ(plain.scene.objects.size(), 1u);
+  EXPECT_NEAR(surface_area(*plain.scene.objects[0].shape).value(), 6, 1e-12);
+  EXPECT_THAT(plain.notes, Contains("NURBS that end before their knots do: made whole"));
+  EXPECT_THAT(plain.notes, Contains(HasSubstr("NURBS up to degree 3: left out")));
+}
+
 TEST(Pbrt, MaterialsOfBothVersions) {
   const SceneFile file = scene_in(
       "a.pbrt",
@@ -122,6 +151,9 @@ TEST(Pbrt, FilesIncludeOthers) {
 }
 
 TEST(Pbrt, ErrorsGiveTheExactPlace) {
+  const std::string kPlane =
+      "Shape \"nurbs\" \"integer nu\" 2 \"integer nv\" 2 \"integer uorder\" 2 "
+      "\"float uknots\" [0 0 1 1] \"float vknots\" [0 0 1 1]\n";
   const std::pair<std::string, const char*> cases[] = {
       {"Shap \"sphere\"", "1:1: unknown directive 'Shap': did you mean 'Shape'?"},
       {"Shape sphere", "1:7: 'Shape' needs a text in quotes here"},
@@ -148,6 +180,14 @@ TEST(Pbrt, ErrorsGiveTheExactPlace) {
       {"Include \"/etc/passwd\"", "1:9: '/etc/passwd' can't be included"},
       {"Include \"a.pbrt\"", "1:9: 'a.pbrt' includes itself"},
       {"Material \"matte\" \"rgb Kd\" [1 -1 0]", "1:18: 'Kd' must not be negative"},
+      {"\nShape \"nurbs\"", "2:1: 'nurbs' lacks 'uorder'"},
+      {kPlane + "\"integer vorder\" 1.5", "2:1: 'vorder' must be a whole number from 1 on"},
+      {kPlane + "\"integer vorder\" 2\n\"point P\" [0 0 0 1 0 0]",
+       "3:1: 2 by 2 points take 12 numbers, not 6"},
+      {kPlane + "\"integer vorder\" 1 \"point P\" [0 0 0 1 0 0 0 1 0 1 1 0]",
+       "1:1: v_knots: the degree must be 1 to 3, not 0"},
+      {kPlane + "\"integer vorder\" 2 \"float Pw\" [0 0 0 1 1 0 0 1 0 1 0 1 1 1 0 0]",
+       "1:1: weights: must be more than 0, not 0"},
       {"Camera \"perspective\" \"float fov\" 180", "1:22: 'fov' must lie between 0 and 180"},
   };
   for (const auto& [text, expected] : cases) {
@@ -155,6 +195,8 @@ TEST(Pbrt, ErrorsGiveTheExactPlace) {
   }
   EXPECT_EQ(refusal_of("a.pbrt", ""), "a.pbrt: the scene has no surfaces");
 }
+
+TEST(Pbrt, DamagedNurbsDoNoHarm) { expect_no_harm("a.pbrt", "WorldBegin " + kTube, 1000); }
 
 TEST(Pbrt, DamagedFilesDoNoHarm) {
   expect_no_harm("a.pbrt",

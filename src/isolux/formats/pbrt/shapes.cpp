@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "isolux/formats/mesh/ply.h"
+#include "isolux/formats/pbrt/nurbs.h"
 #include "isolux/geometry/cylinder.h"
 #include "isolux/geometry/disk.h"
 #include "isolux/geometry/instance.h"
-#include "isolux/geometry/nurbs.h"
 #include "isolux/geometry/reversed.h"
 #include "isolux/geometry/sphere.h"
 #include "isolux/geometry/tessellation.h"
@@ -66,65 +66,10 @@ TriangleSoup ply_mesh(const Parameters& parameters, Includes& includes) {
   return parse_ply(source, cutting);
 }
 
-/// The numbers of a parameter that must be there.
-const std::vector<double>& numbers(const Parameters& parameters, std::string_view name,
-                                   const SourceLocation& where) {
-  const Parameter* const p = parameters.find(name);
-  if (!p) throw InputError(where, fmt::format("'nurbs' lacks {}", in_quotes(name)));
-  return p->numbers;
-}
-
-/// The order, which is the degree and one, and the knots along u or v. What is no order makes a
-/// degree that is refused.
-KnotVector knot_vector(const Parameters& parameters, char axis, const SourceLocation& where) {
-  const auto order = parameters.number(fmt::format("{}order", axis)).value_or(0);
-  const bool known = order >= 1 && order <= 100 && order == std::floor(order);
-  return {known ? static_cast<std::size_t>(order) - 1 : 0,
-          numbers(parameters, fmt::format("{}knots", axis), where)};
-}
-
-/// Whether a surface ends before its knots do.
-bool is_cut(const Parameters& parameters, const KnotVector& vector, char axis) {
-  const auto& knots = vector.knots;
-  if (knots.size() < 2 * vector.degree + 2) return false;
-  const auto end = [&](char which, double knot) {
-    return parameters.number(fmt::format("{}{}", axis, which)).value_or(knot) != knot;
-  };
-  return end('0', knots[vector.degree]) || end('1', knots[knots.size() - vector.degree - 1]);
-}
-
-/// Those of version 3; null where a degree is above 3.
-ShapePtr nurbs(const Parameters& parameters, const SourceLocation& where, Notes& notes) {
-  const KnotVector u = knot_vector(parameters, 'u', where), v = knot_vector(parameters, 'v', where);
-  if (std::max(u.degree, v.degree) > 3) return nullptr;
-  if (is_cut(parameters, u, 'u') || is_cut(parameters, v, 'v')) {
-    notes.add("NURBS that end before their knots do: made whole");
-  }
-  const bool weighted = parameters.find("Pw") != nullptr;
-  const auto& list = numbers(parameters, weighted ? "Pw" : "P", where);
-  const std::size_t stride = weighted ? 4 : 3;
-  const double nu = parameters.number("nu").value_or(0), nv = parameters.number("nv").value_or(0);
-  if (!(nu >= 1 && nv >= 1 && nu == std::floor(nu) &&
-        nu * nv * static_cast<double>(stride) == static_cast<double>(list.size()))) {
-    throw InputError(where, fmt::format("'nurbs' has {} by {} points, which {} numbers are not", nu,
-                                        nv, list.size()));
-  }
-  Nurbs::Points points(static_cast<std::size_t>(nv));
-  Nurbs::Weights weights(weighted ? points.size() : 0);
-  for (std::size_t i = 0; i < list.size(); i += stride) {
-    const std::size_t row = i / stride / static_cast<std::size_t>(nu);
-    const double weight = weighted ? list[i + 3] : 1;
-    points[row].push_back(Vec3{list[i], list[i + 1], list[i + 2]} / weight);
-    if (weighted) weights[row].push_back(weight);
-  }
-  return made_at(
-      where, [&] { return std::make_shared<Nurbs>(u, v, std::move(points), std::move(weights)); });
-}
-
 /// A shape of one piece in its own frame; null where it is of no known kind.
 ShapePtr round_shape(std::string_view kind, const Parameters& parameters,
                      const SourceLocation& where, Notes& notes) {
-  if (kind == "nurbs") return nurbs(parameters, where, notes);
+  if (kind == "nurbs") return make_nurbs(parameters, where, notes);
   const auto number = [&](std::string_view name, double otherwise) {
     return parameters.number(name).value_or(otherwise);
   };
