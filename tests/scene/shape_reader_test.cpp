@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "isolux/core/random.h"
 #include "scene/scene_text.h"
 
 namespace isolux {
@@ -165,6 +166,26 @@ TEST(ShapeReader, ANurbsSurface) {
   parabola->intersect({{0, 0, 1}, {1, 1, 0}}, hits);
   ASSERT_EQ(hits.size(), 1u);
   EXPECT_LT(distance(hits[0].point, {0.75, 0.75, 1}), 1e-14);
+}
+
+// What stands in several places is counted once.
+TEST(ShapeReader, PiecesOfAllPatchesAreCounted) {
+  std::string points;
+  Random random(1);
+  for (int i = 0; i < 48; ++i) {
+    points += (i % 3 == 0 ? i == 0 ? "[" : ", [" : ", ") + std::to_string(random.uniform()) +
+              (i % 3 == 2 ? "]" : "");
+  }
+  const std::string crumpled = "{bezier: {patches: [[" + points + "]]}}";
+  const auto scene = [&](const std::string& shapes, const std::string& shape) {
+    std::string text = "isolux: 1\nmaterials: {gray: {reflectance: 0.5}}\n" + shapes +
+                       "objects:\n  - {material: gray, shape: &first " + shape + "}\n";
+    for (int i = 0; i < 4000; ++i) text += "  - {material: gray, shape: *first}\n";
+    return text;
+  };
+  EXPECT_THAT(refusal(scene("", crumpled)),
+              testing::HasSubstr(": the scene has more than 400000 pieces of curved patches"));
+  EXPECT_EQ(refusal(scene("shapes: {ball: " + crumpled + "}\n", "{instance: ball}")), "");
 }
 
 TEST(ShapeReader, AnInwardBoxIsARoom) {

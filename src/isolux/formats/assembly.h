@@ -11,6 +11,7 @@
 #include "isolux/formats/notes.h"
 #include "isolux/formats/object_names.h"
 #include "isolux/formats/scene_file.h"
+#include "isolux/scene/piece_count.h"
 
 namespace isolux {
 
@@ -28,6 +29,7 @@ class Assembly {
   explicit Assembly(const std::string& name) { scene_.name = name; }
 
   Notes& notes() { return notes_; }
+  PieceCount& pieces() { return pieces_; }
   std::vector<Source>& sources() { return scene_.sources; }
   std::vector<Camera>& cameras() { return scene_.cameras; }
 
@@ -57,6 +59,7 @@ class Assembly {
   Scene scene_;
   std::vector<bool> two_sided_;  ///< a flag an object
   Notes notes_;
+  PieceCount pieces_;
   std::size_t items_ = 0;  ///< points and triangles of all meshes
   std::size_t flat_ = 0, repeated_ = 0, clamped_ = 0, two_sided_lights_ = 0;
   std::map<std::tuple<std::string, double, double, double>, std::uint32_t> materials_;

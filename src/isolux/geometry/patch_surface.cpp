@@ -41,12 +41,11 @@ double area_of(const RationalPatch& patch, std::size_t cells) {
   return sum / (4 * n * n);
 }
 
-/// Cells are halved until that changes nothing, or there are enough.
-double area_of(const RationalPatch& patch) {
-  constexpr double kSame = 1e-9;
-  constexpr std::size_t kMostCells = 8;
+/// Cells are halved until that changes nothing, or there are that many along each side.
+double converged_area(const RationalPatch& patch, std::size_t most_cells) {
+  constexpr double kSame = 1e-8;
   double coarse = 0, fine = area_of(patch, 1);
-  for (std::size_t cells = 2; cells <= kMostCells && std::abs(fine - coarse) > kSame * fine;
+  for (std::size_t cells = 2; cells <= most_cells && std::abs(fine - coarse) > kSame * fine;
        cells *= 2) {
     coarse = fine, fine = area_of(patch, cells);
   }
@@ -86,6 +85,7 @@ PatchSurface::PatchSurface(const std::vector<ControlPoints>& patches, std::strin
   center_ = bounds_.center();
   unit_ = 0.5 * bounds_.diagonal();
   require_length(unit_, field);
+  patches_.reserve(patches.size());
   const int most_halvings = std::min(
       kMostHalvings, static_cast<int>(std::bit_width(1 + kMostPieces / patches.size())) - 1);
   for (const ControlPoints& points : patches) {
@@ -103,6 +103,7 @@ PatchSurface::PatchSurface(const std::vector<ControlPoints>& patches, std::strin
       throw InputError(fmt::format("{}: number {} has no area", field, patches_.size() + 1));
     }
   }
+  pieces_.shrink_to_fit();
   if (patches_.empty()) throw InputError(fmt::format("{}: the surface has no area", field));
   std::vector<Bounds> boxes;
   Bounds all;
@@ -197,8 +198,9 @@ bool PatchSurface::occludes(const Ray& ray, double t_min, double t_max) const {
 }
 
 std::optional<double> PatchSurface::area() const {
+  const std::size_t most_cells = patches_.size() > 4096 ? 2 : 8;
   double sum = 0;
-  for (const RationalPatch& patch : patches_) sum += area_of(patch);
+  for (const RationalPatch& patch : patches_) sum += converged_area(patch, most_cells);
   return sum * unit_ * unit_;
 }
 

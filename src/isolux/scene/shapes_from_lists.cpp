@@ -26,6 +26,16 @@ std::vector<std::vector<Vec3>> read_holes(const Fields& fields) {
   return holes;
 }
 
+/// The surface, once its pieces are counted.
+ShapePtr counted(const Value& place, ShapePtr patches) {
+  try {
+    place.pieces().add(patches->part_count());
+  } catch (const InputError& error) {
+    place.fail(error.what());
+  }
+  return patches;
+}
+
 KnotVector read_knots(const Value& degree, const Value& knots) {
   KnotVector vector{static_cast<std::size_t>(degree.integer(1, 3)), {}};
   for (const Value& knot : knots.items()) vector.knots.push_back(knot.number());
@@ -134,7 +144,7 @@ ShapePtr read_bezier(const Value& value) {
     std::vector<Vec3>& points = patches.emplace_back();
     for (const Value& point : patch.items(16, 16)) points.push_back(point.point());
   }
-  return make_shape<Bezier>(value, std::move(patches));
+  return counted(value, make_shape<Bezier>(value, std::move(patches)));
 }
 
 ShapePtr read_nurbs(const Value& value) {
@@ -151,8 +161,8 @@ ShapePtr read_nurbs(const Value& value) {
       for (const Value& weight : row.items(2)) numbers.push_back(weight.number());
     }
   }
-  return make_shape<Nurbs>(value, std::move(u), std::move(v), std::move(points),
-                           std::move(weights));
+  return counted(value, make_shape<Nurbs>(value, std::move(u), std::move(v), std::move(points),
+                                          std::move(weights)));
 }
 
 }  // namespace isolux

@@ -10,6 +10,7 @@
 #include "isolux/core/color.h"
 #include "isolux/core/error.h"
 #include "isolux/core/vec3.h"
+#include "isolux/scene/piece_count.h"
 #include "isolux/scene/yaml.h"
 
 namespace isolux {
@@ -17,7 +18,8 @@ namespace isolux {
 /// What a value of a scene file is read against.
 struct ReadingContext {
   std::string file;
-  double metres_per_unit = 1;  ///< what plain lengths count in
+  double metres_per_unit = 1;      ///< what plain lengths count in
+  mutable PieceCount pieces = {};  ///< of the shapes read so far
 };
 
 /// One value of a scene file, read strictly: whatever is not as asked for ends in an InputError
@@ -30,6 +32,8 @@ class Value {
 
   std::string_view label() const { return label_; }
   Value labelled(std::string_view label) const { return {*context_, *node_, label}; }
+  /// Those of the scene that is read.
+  PieceCount& pieces() const { return context_->pieces; }
   SourceLocation location() const { return {context_->file, node_->line, node_->column}; }
   [[noreturn]] void fail(const std::string& message) const;
 

@@ -50,11 +50,11 @@ bool is_cut(const Parameters& parameters, const KnotVector& vector, char axis) {
 }  // namespace
 
 std::shared_ptr<const Shape> make_nurbs(const Parameters& parameters, const SourceLocation& where,
-                                        Notes& notes) {
+                                        Assembly& assembly) {
   const KnotVector u = knot_vector(parameters, 'u', where), v = knot_vector(parameters, 'v', where);
   if (std::max(u.degree, v.degree) > 3) return nullptr;
   if (is_cut(parameters, u, 'u') || is_cut(parameters, v, 'v')) {
-    notes.add("NURBS that end before their knots do: made whole");
+    assembly.notes().add("NURBS that end before their knots do: made whole");
   }
   const std::size_t nu = require_count(parameters, "nu", where);
   const std::size_t nv = require_count(parameters, "nv", where);
@@ -73,8 +73,11 @@ std::shared_ptr<const Shape> make_nurbs(const Parameters& parameters, const Sour
     points[i / nu].push_back(Vec3{p[0], p[1], p[2]} / weight);  // those of Pw come times the weight
     if (weighted) weights[i / nu].push_back(weight);
   }
-  const auto make = [&] { return std::make_shared<Nurbs>(u, v, points, weights); };
-  return made_at(where, make);
+  return made_at(where, [&] {
+    auto shape = std::make_shared<Nurbs>(u, v, std::move(points), std::move(weights));
+    assembly.pieces().add(shape->part_count());
+    return shape;
+  });
 }
 
 }  // namespace isolux::pbrt

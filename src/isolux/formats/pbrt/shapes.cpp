@@ -69,7 +69,6 @@ TriangleSoup ply_mesh(const Parameters& parameters, Includes& includes) {
 /// A shape of one piece in its own frame; null where it is of no known kind.
 ShapePtr round_shape(std::string_view kind, const Parameters& parameters,
                      const SourceLocation& where, Notes& notes) {
-  if (kind == "nurbs") return make_nurbs(parameters, where, notes);
   const auto number = [&](std::string_view name, double otherwise) {
     return parameters.number(name).value_or(otherwise);
   };
@@ -100,7 +99,9 @@ ShapePtr make_shape(std::string_view kind, const Parameters& parameters, const A
     soup = bilinear_mesh(parameters);
   } else if (kind == "plymesh") {
     soup = ply_mesh(parameters, includes);
-  } else if (ShapePtr shape = round_shape(kind, parameters, where, assembly.notes())) {
+  } else if (ShapePtr shape = kind == "nurbs"
+                                  ? make_nurbs(parameters, where, assembly)
+                                  : round_shape(kind, parameters, where, assembly.notes())) {
     if (reversed && !two_sided) shape = std::make_shared<Reversed>(std::move(shape));
     return made_at(where, [&] { return std::make_shared<Instance>(shape, map); });
   } else {
