@@ -22,9 +22,9 @@ void for_arcs(const KnotVector& vector, const Visit& visit) {
   }
 }
 
-/// The control point of the arc that begins at knot `first`, after as many others: the blossom at
-/// the arc's end, that often, and else at its start. All steps stay between two points, since both
-/// ends lie between the knots that these belong to.
+/// Control point `number` of the arc from knot `first` to the next: the blossom at the arc's start,
+/// degree − number times, and at its end, `number` times. Each step stays between two points, since
+/// the arc lies between the knots whose distance it divides by.
 ControlPoint arc_point(const KnotVector& vector, const std::vector<ControlPoint>& points,
                        std::size_t first, std::size_t number) {
   const auto& [degree, knots] = vector;

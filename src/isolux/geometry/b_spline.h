@@ -8,8 +8,9 @@
 
 namespace isolux {
 
-/// What makes a B-spline of a row of control points: it runs over the parameters between two of its
-/// knots, of which each comes as often as there are derivatives missing there.
+/// The knots of a B-spline. From one to the next it is one polynomial of that degree; at a knot
+/// that comes k times, its derivatives go on up to number degree − k. It begins at knot number
+/// degree + 1, and ends at the last but `degree`.
 struct KnotVector {
   std::size_t degree;         ///< 1 to 3
   std::vector<double> knots;  ///< never falling, degree + 1 more than control points

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 
 #include "isolux/core/error.h"
@@ -14,8 +16,8 @@ class PieceCount {
     constexpr std::size_t kMost = 400'000;
     pieces_ += pieces;
     if (pieces_ <= kMost) return;
-    throw InputError(
-        "the scene has more than 400000 pieces of curved patches: give it fewer patches");
+    throw InputError(fmt::format(
+        "the scene has more than {} pieces of curved patches: give it fewer patches", kMost));
   }
 
  private:
