@@ -15,7 +15,7 @@ struct Edge {
   std::uint64_t key() const { return std::uint64_t{a} << 32 | b; }
 };
 
-/// Every edge of a living triangle once, in ascending order of its ends. Cost: n log n.
+/// Every edge of a living triangle once, in ascending order of its ends. Cost: linear.
 std::vector<Edge> living_edges(const Triangulation& mesh);
 
 }  // namespace isolux
