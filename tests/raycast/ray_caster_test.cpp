@@ -35,6 +35,23 @@ std::vector<double> brute_force(const Scene& scene, const Ray& ray, Interval wit
   return ts;
 }
 
+void expect_packets_meet_what_single_rays_meet(const RayCaster& rays,
+                                               std::span<const Segment> segments) {
+  std::vector<Ray> all;
+  for (const Segment& s : segments) all.push_back({s.from, s.to - s.from});
+  std::vector<std::optional<SurfaceHit>> hits(all.size());
+  rays.nearest(all, hits);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto alone = rays.nearest(all[i]);
+    ASSERT_EQ(hits[i].has_value(), alone.has_value()) << "ray " << i;
+    if (!alone) continue;
+    EXPECT_EQ(hits[i]->t, alone->t);
+    EXPECT_EQ(hits[i]->surface, alone->surface);
+    EXPECT_EQ(hits[i]->normal, alone->normal);
+    EXPECT_EQ(hits[i]->back, alone->back);
+  }
+}
+
 TEST(RayCaster, AllQueriesAgreeWithTheShapesThemselves) {
   Scene scene = scene_of(kMixedScene);
   for (Object& object : scene.objects) object.sides = Sides::front;
@@ -66,6 +83,9 @@ TEST(RayCaster, AllQueriesAgreeWithTheShapesThemselves) {
   for (std::size_t i = 0; i < segments.size(); ++i) {
     EXPECT_EQ(blocked[i] != 0, rays.occluded(segments[i])) << "segment " << i;
   }
+  expect_packets_meet_what_single_rays_meet(rays, segments);
+  const Scene open = scene_of(kMixedScene);
+  expect_packets_meet_what_single_rays_meet(RayCaster(open), segments);
 }
 
 TEST(RayCaster, TheIntervalIsOpenAtBothEnds) {
@@ -265,12 +285,14 @@ TEST(RayCaster, SharedShapesAreMetWhereTheyStand) {
   const RayCaster rays(scene);
   Random random(11);
   std::vector<SurfaceHit> hits;
+  std::vector<Segment> segments;
   std::size_t met = 0;
   for (int i = 0; i < 20000; ++i) {
     const Affine& map = maps[static_cast<std::size_t>(i) % maps.size()];
     const Vec3 to = map.point(random_point(random));
     const Vec3 from = map.point(random_point(random) * 3 - Vec3{1, 1, 1});
     const Ray ray{from, to - from};
+    segments.push_back({from, to});
     const std::vector<double> expected = brute_force(scene, ray, {});
     rays.all_hits(ray, {}, hits);
     ASSERT_EQ(hits.size(), expected.size()) << "ray " << i;
@@ -280,6 +302,7 @@ TEST(RayCaster, SharedShapesAreMetWhereTheyStand) {
     EXPECT_EQ(rays.occluded(Segment{from, to}), blocked) << "ray " << i;
   }
   EXPECT_GT(met, 5000u);
+  expect_packets_meet_what_single_rays_meet(rays, segments);
 }
 
 }  // namespace

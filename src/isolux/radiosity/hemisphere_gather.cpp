@@ -217,10 +217,9 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
   }
 }
 
-Landing HemisphereGather::land(const Ray& ray) const {
+Landing HemisphereGather::landing_of(const Ray& ray, const std::optional<SurfaceHit>& hit) const {
   const Landing outside{{static_cast<std::uint32_t>(surfaces_.size() - 1), {}}};
   const Landing black{{outside.site.surface - 1, {}}};
-  const std::optional<SurfaceHit> hit = rays_.nearest(ray);
   if (!hit) return outside;
   if (dot(hit->normal, ray.direction) >= 0) return black;
   const std::uint32_t surface = 3 * hit->surface.object;
@@ -242,12 +241,13 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   const double cosine = std::cos(turn), sine = std::sin(turn);
   row.grid = grid;
   divide(receiver, frame, cosine, sine, row);
-  row.rays.clear();
+  thread_local std::vector<Ray> rays;
+  rays.clear();
   const auto send = [&](double i, double j) {
     const Point2 square{2 * i / grid - 1, 2 * j / grid - 1};
     const Point2 p = turned(to_disk({square.x * kRim, square.y * kRim}), cosine, sine);
     const double squared = p.x * p.x + p.y * p.y;
-    row.rays.push_back(land({origin, frame.to_world({p.x, p.y, std::sqrt(1 - squared)})}));
+    rays.push_back({origin, frame.to_world({p.x, p.y, std::sqrt(1 - squared)})});
   };
   for (int j = 0; j < grid; ++j) {
     for (int i = 0; i < grid; ++i) {
@@ -262,6 +262,13 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
         send(x, cell / grid + (j + random.uniform()) / parts);
       }
     }
+  }
+  thread_local std::vector<std::optional<SurfaceHit>> hits;
+  hits.resize(rays.size());
+  rays_.nearest(rays, hits);
+  row.rays.clear();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    row.rays.push_back(landing_of(rays[i], hits[i]));
   }
 }
 

@@ -10,16 +10,20 @@
 namespace isolux {
 namespace {
 
-/// Rays travel with their double-precision original; Embree's own single-precision ray only finds
-/// the boxes to look into.
-struct Query : RTCIntersectContext {
-  Interval within;
+/// What is known of a ray on its way. It is the double-precision original: Embree's own
+/// single-precision ray only finds the boxes to look into.
+struct Search {
   const Ray* ray = nullptr;
   // For nearest(): the best hit so far, whether it is on a side that takes part in the exchange of
   // light, and how close together, in t, hits coincide.
   std::optional<SurfaceHit> first;
   bool first_takes_part = false;
   double tie = 0;
+};
+
+struct Query : RTCIntersectContext {
+  Interval within;
+  std::span<Search> searches;  // of the packet, by their id
   const Scene* scene = nullptr;
   // For all_hits(): where they go.
   std::vector<SurfaceHit>* all = nullptr;
@@ -61,34 +65,43 @@ bool covers(const Scene& scene, const SurfaceHit& a, const SurfaceHit& b) {
   return rank(a) > rank(b);
 }
 
+/// Takes the hit if it is the first so far; whether it is.
+bool take_first(const Query& query, const SurfaceHit& found, bool both_sides, Search& search) {
+  const bool takes_part = both_sides || dot(found.normal, search.ray->direction) < 0;
+  bool first = !search.first;
+  if (search.first && !glued(found, *search.first, search.tie)) {
+    first = earlier(found, *search.first);
+  } else if (search.first) {
+    first = takes_part != search.first_takes_part ? takes_part
+                                                  : covers(*query.scene, found, *search.first);
+  }
+  if (first) {
+    search.first = found;
+    search.first_takes_part = takes_part;
+  }
+  return first;
+}
+
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
   auto& query = *static_cast<Query*>(args->context);
   const Primitive& primitive = query.tree->primitive(query, args->geometryUserPtr);
+  RTCRayN* const packet = RTCRayHitN_RayN(args->rayhit, args->N);
   thread_local Hits hits;
-  hits.clear();
-  primitive.object->shape->intersect_part(args->primID, *query.ray, hits);
-  for (const Hit& hit : hits) {
-    if (!(hit.t > query.within.min && hit.t < query.within.max)) continue;
-    const SurfaceHit found = surface_hit(primitive, hit);
-    if (query.all) {
-      query.all->push_back(found);
-      if (primitive.both_sides) query.all->push_back(other_side(found));
-      continue;
-    }
-    const bool takes_part = primitive.both_sides || dot(found.normal, query.ray->direction) < 0;
-    bool first = !query.first;
-    if (query.first && !glued(found, *query.first, query.tie)) {
-      first = earlier(found, *query.first);
-    } else if (query.first) {
-      first = takes_part != query.first_takes_part ? takes_part
-                                                   : covers(*query.scene, found, *query.first);
-    }
-    if (first) {
-      query.first = found;
-      query.first_takes_part = takes_part;
-      float& tfar = RTCRayN_tfar(reinterpret_cast<RTCRayN*>(args->rayhit), args->N, 0);
-      tfar = static_cast<float>((found.t + query.tie) * (1 + 1e-6));
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (!args->valid[lane]) continue;
+    Search& search = query.searches[RTCRayN_id(packet, args->N, lane)];
+    hits.clear();
+    primitive.object->shape->intersect_part(args->primID, *search.ray, hits);
+    for (const Hit& hit : hits) {
+      if (!(hit.t > query.within.min && hit.t < query.within.max)) continue;
+      const SurfaceHit found = surface_hit(primitive, hit);
+      if (query.all) {
+        query.all->push_back(found);
+        if (primitive.both_sides) query.all->push_back(other_side(found));
+      } else if (take_first(query, found, primitive.both_sides, search)) {
+        RTCRayN_tfar(packet, args->N, lane) =
+            static_cast<float>((found.t + search.tie) * (1 + 1e-6));
+      }
     }
   }
 }
@@ -103,6 +116,22 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
       RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
     }
   }
+}
+
+/// A ray of a packet, whose id is its lane.
+void set_lane(RTCRay16& rays, std::size_t lane, const Ray& ray, float t_max) {
+  rays.org_x[lane] = static_cast<float>(ray.origin.x);
+  rays.org_y[lane] = static_cast<float>(ray.origin.y);
+  rays.org_z[lane] = static_cast<float>(ray.origin.z);
+  rays.dir_x[lane] = static_cast<float>(ray.direction.x);
+  rays.dir_y[lane] = static_cast<float>(ray.direction.y);
+  rays.dir_z[lane] = static_cast<float>(ray.direction.z);
+  rays.tnear[lane] = 0;
+  rays.tfar[lane] = t_max;
+  rays.time[lane] = 0;
+  rays.mask[lane] = ~0u;
+  rays.id[lane] = static_cast<unsigned>(lane);
+  rays.flags[lane] = 0;
 }
 
 }  // namespace
@@ -122,12 +151,24 @@ class RayCaster::Impl {
     bounds_tree.emplace(bounds);
   }
 
-  /// Sends the query's ray through the tree.
+  /// Sends the query's only ray through the tree.
   void trace(Query& query) const {
+    start(query);
+    RTCRayHit rayhit = embree_ray(*query.searches[0].ray, query.within.max);
+    rtcIntersect1(tree.rtc(), &query, &rayhit);
+  }
+
+  void start(Query& query) const {
     rtcInitIntersectContext(&query);
     query.tree = &tree;
-    RTCRayHit rayhit = embree_ray(*query.ray, query.within.max);
-    rtcIntersect1(tree.rtc(), &query, &rayhit);
+    query.scene = &scene;
+  }
+
+  /// What the ray met first, as seen from its origin.
+  std::optional<SurfaceHit> seen_by(const Search& search) const {
+    const std::optional<SurfaceHit>& hit = search.first;
+    if (!hit || !tree.primitives()[hit->surface.object].both_sides) return hit;
+    return dot(hit->normal, search.ray->direction) > 0 ? other_side(*hit) : *hit;
   }
 
   const Scene& scene;
@@ -146,24 +187,47 @@ RayCaster::~RayCaster() = default;
 const Scene& RayCaster::scene() const { return impl_->scene; }
 
 std::optional<SurfaceHit> RayCaster::nearest(const Ray& ray, Interval within) const {
+  Search search{&ray, {}, false, epsilon() / length(ray.direction)};
   Query query;
-  query.ray = &ray;
   query.within = within;
-  query.tie = epsilon() / length(ray.direction);
-  query.scene = &impl_->scene;
+  query.searches = {&search, 1};
   impl_->trace(query);
-  if (!query.first) return std::nullopt;
-  const SurfaceHit& hit = *query.first;
-  const Primitive& primitive = impl_->tree.primitives()[hit.surface.object];
-  if (primitive.both_sides && dot(hit.normal, ray.direction) > 0) return other_side(hit);
-  return hit;
+  return impl_->seen_by(search);
+}
+
+void RayCaster::nearest(std::span<const Ray> rays,
+                        std::span<std::optional<SurfaceHit>> hits) const {
+  constexpr std::size_t kLanes = 16;
+  Query query;
+  impl_->start(query);
+  for (std::size_t begin = 0; begin < rays.size(); begin += kLanes) {
+    const std::size_t n = std::min(kLanes, rays.size() - begin);
+    std::array<Search, kLanes> searches;
+    query.searches = searches;
+    RTCRayHit16 packet;
+    alignas(64) std::array<int, kLanes> valid;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      valid[lane] = lane < n ? -1 : 0;
+      const Ray& ray = rays[begin + std::min(lane, n - 1)];
+      searches[lane].ray = &ray;
+      searches[lane].tie = epsilon() / length(ray.direction);
+      set_lane(packet.ray, lane, ray, std::numeric_limits<float>::infinity());
+      packet.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect16(valid.data(), impl_->tree.rtc(), &query, &packet);
+    for (std::size_t lane = 0; lane < n; ++lane) {
+      hits[begin + lane] = impl_->seen_by(searches[lane]);
+    }
+  }
 }
 
 void RayCaster::all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit>& hits) const {
   hits.clear();
+  Search search{&ray, {}, false, 0};
   Query query;
-  query.ray = &ray;
   query.within = within;
+  query.searches = {&search, 1};
   query.all = &hits;
   impl_->trace(query);
 
@@ -211,19 +275,7 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       valid[lane] = lane < n ? -1 : 0;
       const Segment& segment = query.segments[std::min(lane, n - 1)];
-      const Vec3 d = segment.to - segment.from;
-      rays.org_x[lane] = static_cast<float>(segment.from.x);
-      rays.org_y[lane] = static_cast<float>(segment.from.y);
-      rays.org_z[lane] = static_cast<float>(segment.from.z);
-      rays.dir_x[lane] = static_cast<float>(d.x);
-      rays.dir_y[lane] = static_cast<float>(d.y);
-      rays.dir_z[lane] = static_cast<float>(d.z);
-      rays.tnear[lane] = 0;
-      rays.tfar[lane] = 1;
-      rays.time[lane] = 0;
-      rays.mask[lane] = ~0u;
-      rays.id[lane] = static_cast<unsigned>(lane);
-      rays.flags[lane] = 0;
+      set_lane(rays, lane, ray_of(segment), 1);
     }
     rtcOccluded16(valid.data(), impl_->tree.rtc(), &query, &rays);
     for (std::size_t lane = 0; lane < n; ++lane) blocked[first + lane] = rays.tfar[lane] < 0;
