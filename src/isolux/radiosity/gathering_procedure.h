@@ -160,7 +160,8 @@ class Gathering {
   std::vector<double> around_vertices(std::span<const Edge> edges, Error&& error) const {
     std::vector<double> sum(state_.light.size()), area(state_.light.size());
     for (const Edge& e : edges) {
-      for (const VertexId v : {e.a, e.b}) sum[v] += error(e) * e.area, area[v] += e.area;
+      const double share = error(e) * e.area;
+      for (const VertexId v : {e.a, e.b}) sum[v] += share, area[v] += e.area;
     }
     for (std::size_t v = 0; v < sum.size(); ++v) {
       if (area[v] > 0) sum[v] /= area[v];
