@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <tuple>
+#include <utility>
 
 #include "isolux/discretization/nearest_vertices.h"
 
@@ -111,10 +112,11 @@ class MeshLookup::Impl {
     return place;
   }
 
-  /// The voxel of a coordinate counted in voxels: monotonic, and where it matters (within half a
-  /// million voxels of the middle) that of the next lower whole number.
+  /// The voxel of a coordinate counted in voxels, within 2⁴⁰ of them: the next lower whole number,
+  /// but for rounding.
+  static constexpr double kMiddleCell = 0x1p40 + 0x1p19;
   static std::int64_t cell(double coordinate) {
-    return static_cast<std::int64_t>(coordinate + 0x1p19);
+    return static_cast<std::int64_t>(coordinate + kMiddleCell);
   }
   VoxelKey voxel_of(const Vec3& from_middle, int level) const {
     const double scale = scales_[static_cast<std::size_t>(level)];
@@ -144,8 +146,9 @@ class MeshLookup::Impl {
     std::sort(order.begin(), order.end());
     std::vector<std::pair<VoxelKey, std::uint32_t>> entries;
     for (const auto& [key, id, level] : order) {
-      list(box(id), level, static_cast<std::uint32_t>(facets_.size()), entries);
+      const auto index = static_cast<std::uint32_t>(facets_.size());
       facets_.push_back(facet_of(id));
+      list(box(id), level, index, facets_.back(), entries);
     }
     fill_table(entries);
   }
@@ -222,46 +225,79 @@ class MeshLookup::Impl {
     return exponents;
   }
 
-  /// Lists the facet in all voxels that the box touches.
-  void list(const Bounds& box, int level, std::uint32_t facet,
+  /// Lists a facet in the voxels from which it may be found: those that its box touches, but for
+  /// such that lie wholly outside one of its sides, or beyond its reach.
+  void list(const Bounds& box, int level, std::uint32_t index, const Facet& facet,
             std::vector<std::pair<VoxelKey, std::uint32_t>>& entries) const {
+    constexpr double kRoom = 1.01;  // for rounding
     const double scale = scales_[static_cast<std::size_t>(level)];
+    const auto wide = [](const Vec3f& v) { return Vec3{v.x, v.y, v.z}; };
+    const Vec3 corner = wide(facet.corner), normal = wide(facet.normal);
+    const Vec3 along1 = wide(facet.along[0]), along2 = wide(facet.along[1]);
+    // How far what is linear may be off its value in the middle of a voxel.
+    const auto spread = [&](const Vec3& gradient) {
+      return 0.5 * kRoom / scale *
+             (std::abs(gradient.x) + std::abs(gradient.y) + std::abs(gradient.z));
+    };
+    const double least1 = -kRoom * kOutside - spread(along1);
+    const double least2 = -kRoom * kOutside - spread(along2);
+    const double most12 = 1 + kRoom * kOutside + spread(along1 + along2);
+    const double highest = kRoom * facet.reach + spread(normal);
+    const auto middle = [&](std::int64_t k) {
+      return (static_cast<double>(k) + 0.5 - kMiddleCell) / scale;
+    };
     for (auto z = cell(box.lower.z * scale); z <= cell(box.upper.z * scale); ++z) {
       for (auto y = cell(box.lower.y * scale); y <= cell(box.upper.y * scale); ++y) {
         for (auto x = cell(box.lower.x * scale); x <= cell(box.upper.x * scale); ++x) {
-          entries.emplace_back(voxel_key(level, x, y, z), facet);
+          const Vec3 d = Vec3{middle(x), middle(y), middle(z)} - corner;
+          const double w1 = dot(along1, d), w2 = dot(along2, d);
+          if (w1 < least1 || w2 < least2 || w1 + w2 > most12 ||
+              std::abs(dot(normal, d)) > highest) {
+            continue;
+          }
+          entries.emplace_back(voxel_key(level, x, y, z), index);
         }
       }
     }
   }
 
-  void fill_table(std::vector<std::pair<VoxelKey, std::uint32_t>>& entries) {
-    std::sort(entries.begin(), entries.end());
+  /// Makes the table of entries whose facets ascend.
+  void fill_table(std::span<const std::pair<VoxelKey, std::uint32_t>> entries) {
+    // There are no more voxels than entries; as a rule a quarter of them.
+    table_.assign(std::bit_ceil(entries.size() / 2 + 2), {});
     std::size_t voxels = 0;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      listed_.push_back(entries[i].second);
-      voxels += i == 0 || entries[i].first != entries[i - 1].first;
+    for (const auto& [key, facet] : entries) {
+      if (4 * voxels >= 3 * table_.size()) grow_table();
+      Voxel& voxel = table_[slot_of(key)];
+      voxels += voxel.count++ == 0;
+      voxel.key = key;
     }
-    table_.assign(std::bit_ceil(voxels + voxels / 4 + 2), {});
-    for (std::size_t i = 0; i < entries.size();) {
-      std::size_t end = i;
-      while (end < entries.size() && entries[end].first == entries[i].first) ++end;
-      std::size_t slot = hash(entries[i].first) & (table_.size() - 1);
-      while (table_[slot].count > 0) slot = (slot + 1) & (table_.size() - 1);
-      table_[slot] = {entries[i].first, static_cast<std::uint32_t>(i),
-                      static_cast<std::uint32_t>(end - i)};
-      i = end;
+    std::uint32_t end = 0;
+    for (Voxel& voxel : table_) voxel.first = end, end += voxel.count;
+    listed_.resize(entries.size());
+    for (const auto& [key, facet] : entries) listed_[table_[slot_of(key)].first++] = facet;
+    for (Voxel& voxel : table_) voxel.first -= voxel.count;
+  }
+
+  void grow_table() {
+    const std::vector<Voxel> voxels = std::exchange(table_, std::vector<Voxel>(2 * table_.size()));
+    for (const Voxel& voxel : voxels) {
+      if (voxel.count > 0) table_[slot_of(voxel.key)] = voxel;
     }
   }
 
-  std::span<const std::uint32_t> find(VoxelKey key) const {
-    for (std::size_t slot = hash(key) & (table_.size() - 1); table_[slot].count > 0;
-         slot = (slot + 1) & (table_.size() - 1)) {
-      if (table_[slot].key == key) {
-        return std::span(listed_).subspan(table_[slot].first, table_[slot].count);
-      }
+  /// Where the voxel stands in the table, or would.
+  std::size_t slot_of(VoxelKey key) const {
+    std::size_t slot = hash(key) & (table_.size() - 1);
+    while (table_[slot].count > 0 && table_[slot].key != key) {
+      slot = (slot + 1) & (table_.size() - 1);
     }
-    return {};
+    return slot;
+  }
+
+  std::span<const std::uint32_t> find(VoxelKey key) const {
+    const Voxel& voxel = table_[slot_of(key)];
+    return std::span(listed_).subspan(voxel.first, voxel.count);
   }
 
   /// A slot of the hash table: a voxel and its part of `listed_`; free where count is 0.
