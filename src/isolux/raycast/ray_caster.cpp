@@ -255,9 +255,12 @@ void RayCaster::all_hits(const Ray& ray, Interval within, std::vector<SurfaceHit
 }
 
 bool RayCaster::occluded(const Segment& segment) const {
-  std::uint8_t blocked = 0;
-  occluded({&segment, 1}, {&blocked, 1});
-  return blocked != 0;
+  Query query;
+  impl_->start(query);
+  query.segments = {&segment, 1};
+  RTCRay ray = embree_ray(ray_of(segment), 1).ray;
+  rtcOccluded1(impl_->tree.rtc(), &query, &ray);
+  return ray.tfar < 0;
 }
 
 void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const {
