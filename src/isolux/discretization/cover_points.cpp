@@ -23,7 +23,12 @@ CoverPoints::CoverPoints(const SurfaceWalk& walk, const LightReach& light, doubl
       grid_(walk.rays().scene().bounds().lower, walk.rays().scene().objects.size()),
       crease_grid_(walk.rays().scene().bounds().lower),
       dark_grid_(walk.rays().scene().bounds().lower, walk.rays().scene().objects.size()),
-      keep_going_(std::move(keep_going)) {}
+      keep_going_(std::move(keep_going)) {
+  for (const Object& object : walk.rays().scene().objects) {
+    const double across = object.shape->bounds().diagonal();
+    largest_.push_back(std::min(spacing, across * std::clamp(0.5 - across / spacing, 0.25, 0.5)));
+  }
+}
 
 /// Whether to go on; asked now and then, and once refused, refused for good.
 bool CoverPoints::going() {
@@ -135,13 +140,6 @@ void CoverPoints::add(const CoverPoint& point, const Surroundings& around) {
   grid_.insert(id, point.surface.object, point.position, point.longest());
   if (point.on_crease()) crease_grid_.insert(id, point.position, point.longest());
   front_.push({point.size, id});
-}
-
-/// The largest size on the object of a point: a quarter of the object, half of a small one.
-double CoverPoints::largest_on(const ZonePoint& point) const {
-  const Object& object = walk_.rays().scene().objects[point.surface.object];
-  const double across = object.shape->bounds().diagonal();
-  return std::min(spacing_, across * std::clamp(0.5 - across / spacing_, 0.25, 0.5));
 }
 
 void CoverPoints::grow_from(const ZonePoint& point) {

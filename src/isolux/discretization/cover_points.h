@@ -85,7 +85,7 @@ class CoverPoints {
   void begin_at(const ZonePoint& point);
   Vec3 any_direction(const ZonePoint& point);
   void look_from(const ZonePoint& point, const PointSpacing& most);
-  double largest_on(const ZonePoint& point) const;
+  double largest_on(const ZonePoint& point) const { return largest_[point.surface.object]; }
   void spawn(std::uint32_t parent);
   bool lit(const ZonePoint& point);
   void accept(const ZonePoint& point, const Surroundings& around);
@@ -116,6 +116,7 @@ class CoverPoints {
   const SurfaceWalk& walk_;
   const LightReach& light_;
   double spacing_;
+  std::vector<double> largest_;  // size on each object, m: a quarter of it, half of a small one
   Random random_;
   SheetGrid grid_;
   GradedGrid crease_grid_;  // those on creases, of all surfaces

@@ -34,7 +34,7 @@ Vec3 diffuse_direction(const Vec3& normal, Random& random) {
 }  // namespace
 
 LightReach::LightReach(const SurfaceWalk& walk, std::uint64_t seed)
-    : rays_(walk.rays()), walk_(walk) {
+    : rays_(walk.rays()), walk_(walk), diagonal_(rays_.scene().bounds().diagonal()) {
   find_lights(seed);
   send_light(seed);
 }
@@ -78,8 +78,8 @@ void LightReach::send_light(std::uint64_t seed) {
   const std::size_t kinds = lights_.size() + scene.sources.size();
   if (kinds == 0) return;
   std::vector<std::size_t> known(scene.objects.size());
-  const Bounds bounds = scene.bounds();
-  const double radius = 0.5 * bounds.diagonal();
+  const Vec3 center = scene.bounds().center();
+  const double radius = 0.5 * diagonal_;
   for (std::size_t path = 0; path < kPaths; ++path) {
     Random random(seed, ~path);
     Ray ray;
@@ -94,8 +94,7 @@ void LightReach::send_light(std::uint64_t seed) {
         const Frame across(source.direction);
         const double r = radius * std::sqrt(random.uniform());
         const double angle = 2 * std::numbers::pi * random.uniform();
-        ray = {bounds.center() +
-                   across.to_world({r * std::cos(angle), r * std::sin(angle), -2 * radius}),
+        ray = {center + across.to_world({r * std::cos(angle), r * std::sin(angle), -2 * radius}),
                source.direction};
       }
     }
@@ -124,8 +123,7 @@ bool LightReach::lit_straight(const Place& place, Random& random) const {
   }
   const Source& source = sources[kind - lights_.size()];
   if (source.kind != Source::Kind::directional) return opens_to(place, source.position);
-  return opens_to(place,
-                  place.position - source.direction * (2 * rays_.scene().bounds().diagonal()));
+  return opens_to(place, place.position - source.direction * (2 * diagonal_));
 }
 
 bool LightReach::sees_lit_place(const Place& place, Random& random) const {
@@ -166,7 +164,7 @@ bool LightReach::reaches(const SurfacePoint& point, Random& random) const {
 
 bool LightReach::reaches_beside(const ZonePoint& point, Random& random) const {
   const Frame frame(point.normal);
-  const double far = kAside * rays_.scene().bounds().diagonal();
+  const double far = kAside * diagonal_;
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * std::numbers::pi * random.uniform();
     const Vec3 d = frame.u * std::cos(angle) + frame.v * std::sin(angle);

@@ -45,6 +45,7 @@ class LightReach {
 
   const RayCaster& rays_;
   const SurfaceWalk& walk_;
+  const double diagonal_;                   ///< of the scene, m
   std::vector<std::vector<Place>> lights_;  ///< of each object that emits
   std::vector<Place> lit_;                  ///< a few of each object
 };
