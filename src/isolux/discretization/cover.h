@@ -10,7 +10,8 @@ namespace isolux {
 struct CoverOptions {
   double spacing = 0.1;    ///< m: between neighbours on flat surfaces far from anything
   std::uint64_t seed = 1;  ///< of the random lines and of the points' places
-  /// Asked every few thousand points; once it says no, only what has points is covered.
+  /// Asked every hundred points or so, after some thousands of them; once it says no, only what has
+  /// points is covered.
   std::function<bool()> keep_going = {};
 };
 

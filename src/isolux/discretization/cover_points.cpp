@@ -30,12 +30,13 @@ CoverPoints::CoverPoints(const SurfaceWalk& walk, const LightReach& light, doubl
   }
 }
 
-/// Whether to go on; asked now and then, and once refused, refused for good.
+/// Whether to go on after another step; the caller is asked now and then, and once refused, it is
+/// refused for good.
 bool CoverPoints::going() {
-  constexpr std::size_t kPointsBetweenLooks = 4096;
-  if (!stopped_ && keep_going_ && points_.size() >= next_look_) {
-    next_look_ = points_.size() + kPointsBetweenLooks;
-    if (points_.size() > 0) stopped_ = !keep_going_();
+  constexpr std::size_t kFirstLook = 4096, kBetweenLooks = 128;  // steps
+  ++steps_;
+  if (!stopped_ && keep_going_ && steps_ >= kFirstLook && steps_ % kBetweenLooks == 0) {
+    stopped_ = !keep_going_();
   }
   return !stopped_;
 }
@@ -184,7 +185,6 @@ void CoverPoints::spawn_all() {
 
 void CoverPoints::settle() {
   if (stopped_) return;
-  next_look_ = 0;
   const std::vector<CoverPoint> points = std::move(points_);
   const std::vector<Surroundings> around = std::move(surroundings_);
   const auto along = std::move(along_crease_);
@@ -206,7 +206,7 @@ void CoverPoints::settle() {
   }
   std::sort(between.begin(), between.end());
   for (const auto& [size, i] : between) {
-    while (!front_.empty() && front_.top().first < size) {
+    while (!front_.empty() && front_.top().first < size && going()) {
       const std::uint32_t parent = front_.top().second;
       front_.pop();
       spawn(parent);

@@ -130,7 +130,7 @@ class CoverPoints {
   std::vector<CreaseSeed> crease_seeds_;
   std::vector<ZonePoint> beyond_;  // points of adjoining surfaces, to be grown from
   std::function<bool()> keep_going_;
-  std::size_t next_look_ = 0;  // points at which to ask again
+  std::size_t steps_ = 0;  // as counted by going()
   bool stopped_ = false;
 };
 

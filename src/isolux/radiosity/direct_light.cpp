@@ -373,15 +373,16 @@ DirectLight::DirectLight(const RayCaster& rays)
 }
 
 void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
-                             std::span<double> error, double tolerance) const {
+                             std::span<double> error, double tolerance,
+                             const std::function<bool()>& keep_going) const {
   const std::vector<Index> order = in_groups(receivers);
   const Precision precision = Precision::of(tolerance);
-  parallel_for(receivers.size(), kGroup, [&](std::size_t begin, std::size_t end) {
-    const std::size_t n = end - begin;
+  const auto light_group = [&](std::span<const Index> members) {
+    const std::size_t n = members.size();
     std::array<Receiver, kGroup> group;
     std::array<Rgb, kGroup> sum{};
     std::array<double, kGroup> variance{};
-    for (std::size_t i = 0; i < n; ++i) group[i] = receivers[order[begin + i]];
+    for (std::size_t i = 0; i < n; ++i) group[i] = receivers[members[i]];
     for (const auto& light : lights_) {
       Group(rays_, *light, std::span(group).first(n), precision).light_up(sum, variance);
     }
@@ -389,10 +390,19 @@ void DirectLight::irradiance(std::span<const Receiver> receivers, std::span<Rgb>
       add_source_light(rays_, source, std::span(group).first(n), sum);
     }
     for (std::size_t i = 0; i < n; ++i) {
-      irradiance[order[begin + i]] = sum[i];
-      error[order[begin + i]] = std::sqrt(variance[i]);
+      irradiance[members[i]] = sum[i];
+      error[members[i]] = std::sqrt(variance[i]);
     }
-  });
+  };
+  constexpr std::size_t kBetweenLooks = 64 * kGroup;
+  for (std::size_t first = 0; first < order.size(); first += kBetweenLooks) {
+    if (keep_going && !keep_going()) return;
+    const auto some =
+        std::span(order).subspan(first, std::min(kBetweenLooks, order.size() - first));
+    parallel_for(some.size(), kGroup, [&](std::size_t begin, std::size_t end) {
+      light_group(some.subspan(begin, end - begin));
+    });
+  }
 }
 
 }  // namespace isolux

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,9 +30,11 @@ class DirectLight {
   /// The direct irradiance (lx) at each receiver, and one standard deviation of its luminance (lx).
   /// Groups of those that stand close together and face alike share what is found out. Shadows'
   /// edges are searched as closely as a solve to `tolerance` needs. Runs in parallel; a value
-  /// depends on the list, not on the number of threads.
+  /// depends on the list, not on the number of threads. `keep_going`, if any, is asked now and
+  /// then; once it says no, the rest is left as it is.
   void irradiance(std::span<const Receiver> receivers, std::span<Rgb> irradiance,
-                  std::span<double> error, double tolerance = 0) const;
+                  std::span<double> error, double tolerance = 0,
+                  const std::function<bool()>& keep_going = {}) const;
 
  private:
   const RayCaster& rays_;

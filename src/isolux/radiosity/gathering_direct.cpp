@@ -60,7 +60,7 @@ void Gathering::look_closer() {
   light_directly(open);
 }
 
-/// The surface over the middles of `chosen` edges, and E_d there.
+/// The surface over the middles of `chosen` edges, and E_d there, until told to stop.
 void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
                               std::span<Middle> middles) {
   parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -78,14 +78,15 @@ void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::
   }
   std::vector<Rgb> irradiance(of.size());
   std::vector<double> deviation(of.size());
-  lights_.irradiance(receivers, irradiance, deviation, state_.level);
+  lights_.irradiance(receivers, irradiance, deviation, state_.level,
+                     [this] { return keep_going(); });
   for (std::size_t i = 0; i < of.size(); ++i) {
     middles[of[i]].direct = irradiance[i];
     middles[of[i]].deviation = deviation[i];
   }
 }
 
-/// The surface over the middles of edges, and E_d there.
+/// The surface over the middles of edges, and E_d there, until told to stop.
 std::vector<Gathering::Middle> Gathering::middles_of(std::span<const Edge> edges) {
   std::vector<Middle> middles(edges.size());
   std::vector<Vec3> places;

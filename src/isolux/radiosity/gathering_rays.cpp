@@ -104,6 +104,7 @@ std::vector<int> Gathering::wanted_grids() {
 void Gathering::gather_all(int finest) {
   constexpr int kMostPasses = 4;
   constexpr double kClearly = 1.3;
+  if (stopped_ && hemisphere_) return;
   std::vector<VertexId> gatherers = outdated_vertices();
   look_up_anew();
   const int passes = mean_irradiance() > 0 ? kMostPasses : 1;
@@ -155,12 +156,19 @@ void Gathering::trace(std::span<const VertexId> vertices, std::span<const int> g
 /// Traces rows in parallel, and hands them out one after the other, until told to stop.
 void Gathering::trace_rows(std::span<const RowRequest> requests,
                            const std::function<void(std::size_t, TracedRow)>& take) {
-  constexpr std::size_t kRows = 512, kFew = 16;  // few, for the sake of memory
+  // Few at a time, for the sake of memory, and not to look at the clock too seldom.
+  constexpr std::size_t kRows = 512, kFew = 16;
+  constexpr std::uint64_t kRays = std::uint64_t{1} << 20;
   std::vector<TracedRow> rows;
-  for (std::size_t first = 0; first < requests.size() && keep_going(); first += kRows) {
-    rows.resize(std::min(kRows, requests.size() - first));
+  for (std::size_t first = 0; first < requests.size() && keep_going(); first += rows.size()) {
+    const auto rest = requests.subspan(first, std::min(kRows, requests.size() - first));
+    std::uint64_t rays = 0;
+    const auto enough = std::find_if(rest.begin(), rest.end(), [&](const RowRequest& request) {
+      return (rays += square_of(request.grid)) > kRays;
+    });
+    rows.resize(std::max<std::size_t>(1, static_cast<std::size_t>(enough - rest.begin())));
     parallel_for(rows.size(), kFew, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) rows[i] = traced(requests[first + i]);
+      for (std::size_t i = begin; i < end; ++i) rows[i] = traced(rest[i]);
     });
     for (std::size_t i = 0; i < rows.size(); ++i) {
       list_fresh_sites(rows[i]);
