@@ -1,5 +1,8 @@
 #include "isolux/discretization/vertex_grid.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace isolux {
 
 VertexGrid::Cell VertexGrid::cell_of(const Vec3& p) const {
@@ -18,7 +21,11 @@ std::size_t VertexGrid::CellHash::operator()(const Cell& c) const {
 }
 
 void VertexGrid::insert(std::uint32_t id, const Vec3& position) {
-  voxels_[cell_of(position)].push_back({position, id});
+  const Cell cell = cell_of(position);
+  voxels_[cell].push_back({position, id});
+  lowest_ = {std::min(lowest_.x, cell.x), std::min(lowest_.y, cell.y), std::min(lowest_.z, cell.z)};
+  highest_ = {std::max(highest_.x, cell.x), std::max(highest_.y, cell.y),
+              std::max(highest_.z, cell.z)};
 }
 
 void VertexGrid::erase(std::uint32_t id, const Vec3& position) {
@@ -29,9 +36,9 @@ void VertexGrid::query(const Vec3& center, double radius, std::vector<std::uint3
   ids.clear();
   const Vec3 reach{radius, radius, radius};
   const Cell lower = cell_of(center - reach), upper = cell_of(center + reach);
-  for (std::int32_t z = lower.z; z <= upper.z; ++z) {
-    for (std::int32_t y = lower.y; y <= upper.y; ++y) {
-      for (std::int32_t x = lower.x; x <= upper.x; ++x) {
+  for (auto z = std::max(lower.z, lowest_.z); z <= std::min(upper.z, highest_.z); ++z) {
+    for (auto y = std::max(lower.y, lowest_.y); y <= std::min(upper.y, highest_.y); ++y) {
+      for (auto x = std::max(lower.x, lowest_.x); x <= std::min(upper.x, highest_.x); ++x) {
         const auto voxel = voxels_.find({x, y, z});
         if (voxel == voxels_.end()) continue;
         for (const Entry& entry : voxel->second) {

@@ -40,6 +40,8 @@ class VertexGrid {
   Vec3 origin_;
   double cell_;
   std::unordered_map<Cell, std::vector<Entry>, CellHash> voxels_;
+  // The box of all cells that were ever in use; empty at first.
+  Cell lowest_{INT32_MAX, INT32_MAX, INT32_MAX}, highest_{INT32_MIN, INT32_MIN, INT32_MIN};
 };
 
 }  // namespace isolux
