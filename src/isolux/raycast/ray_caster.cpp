@@ -82,27 +82,33 @@ bool take_first(const Query& query, const SurfaceHit& found, bool both_sides, Se
   return first;
 }
 
+/// Holds one ray of a packet against a part of a shape.
+void intersect_part(const Query& query, const Primitive& primitive, unsigned part, Search& search,
+                    float& tfar) {
+  thread_local Hits hits;
+  hits.clear();
+  primitive.object->shape->intersect_part(part, *search.ray, hits);
+  for (const Hit& hit : hits) {
+    if (!(hit.t > query.within.min && hit.t < query.within.max)) continue;
+    const SurfaceHit found = surface_hit(primitive, hit);
+    if (query.all) {
+      query.all->push_back(found);
+      if (primitive.both_sides) query.all->push_back(other_side(found));
+    } else if (take_first(query, found, primitive.both_sides, search)) {
+      tfar = static_cast<float>((found.t + search.tie) * (1 + 1e-6));
+    }
+  }
+}
+
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-  auto& query = *static_cast<Query*>(args->context);
+  const auto& query = *static_cast<Query*>(args->context);
   const Primitive& primitive = query.tree->primitive(query, args->geometryUserPtr);
   RTCRayN* const packet = RTCRayHitN_RayN(args->rayhit, args->N);
-  thread_local Hits hits;
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (!args->valid[lane]) continue;
-    Search& search = query.searches[RTCRayN_id(packet, args->N, lane)];
-    hits.clear();
-    primitive.object->shape->intersect_part(args->primID, *search.ray, hits);
-    for (const Hit& hit : hits) {
-      if (!(hit.t > query.within.min && hit.t < query.within.max)) continue;
-      const SurfaceHit found = surface_hit(primitive, hit);
-      if (query.all) {
-        query.all->push_back(found);
-        if (primitive.both_sides) query.all->push_back(other_side(found));
-      } else if (take_first(query, found, primitive.both_sides, search)) {
-        RTCRayN_tfar(packet, args->N, lane) =
-            static_cast<float>((found.t + search.tie) * (1 + 1e-6));
-      }
-    }
+    intersect_part(query, primitive, args->primID,
+                   query.searches[RTCRayN_id(packet, args->N, lane)],
+                   RTCRayN_tfar(packet, args->N, lane));
   }
 }
 
