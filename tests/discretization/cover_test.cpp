@@ -239,6 +239,80 @@ TEST(CoverTest, FacetedConesHaveAnEndOfPointsAtTheirTips) {
   EXPECT_GT(coverage.covered, 0.99 * coverage.area);
 }
 
+/// A lamp's shade: an outer sheet, and the insides of two cones just within it, which meet at a
+/// blunt fold.
+TEST(CoverTest, ShadesOfTwoSheetsAreCoveredInside) {
+  const auto cone = [](double from, double to, double r0, double r1) {
+    return fmt::format("cone: {{from: [0, 0, {}], to: [0, 0, {}], radii: [{}, {}], open: true}}",
+                       from, to, r0, r1);
+  };
+  const Scene scene = scene_of(fmt::format(
+      "materials: {{tan: {{reflectance: 0.2}}, white: {{reflectance: 0.8}}}}\nobjects:\n"
+      "  - {{shape: {{box: {{lower: [-2, -2, -2], upper: [2, 2, 2], inward: true}}}}, material: "
+      "tan}}\n"
+      "  - {{shape: {{reversed: {{{}}}}}, material: white}}\n"
+      "  - {{shape: {{reversed: {{{}}}}}, material: white}}\n"
+      "  - {{shape: {{{}}}, material: tan}}\n  - {{shape: {{{}}}, material: tan}}\n",
+      cone(0.05, 0.025, 0.02, 0.045), cone(0.025, -0.04, 0.045, 0.07),
+      cone(0.05, 0.025, 0.0225, 0.0475), cone(0.025, -0.04, 0.0475, 0.0725)));
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.3);
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  double inside = 0;
+  for (const Triangle& t : mesh.triangles()) {
+    const Vertex& v = mesh.vertex(t.vertices[0]);
+    const bool inward = v.normal.x * v.position.x + v.normal.y * v.position.y < 0;
+    if (t.alive && inward && luminance(v.reflectance) > 0.5) inside += t.area;
+  }
+  const double area = kPi * (0.065 * std::hypot(0.025, 0.025) + 0.115 * std::hypot(0.025, 0.065));
+  EXPECT_NEAR(inside, area, 0.05 * area) << "facets of hollow surfaces are a little smaller";
+}
+
+/// A plate hangs a hair below a ceiling: the ceiling is covered up to its edges.
+TEST(CoverTest, CeilingsAreCoveredUpToWhatHangsAHairBelow) {
+  const Scene scene = scene_of(
+      "materials: {m: {reflectance: 0.5}}\nobjects:\n"
+      "  - {shape: {box: {lower: [-2, -2, 0], upper: [2, 2, 2.5], inward: true}}, material: m}\n"
+      "  - {shape: {parallelogram: {corner: [-0.4, -0.4, 2.49924], u: [0, 0.8, 0], v: [0.8, 0, "
+      "0]}}, material: m, sides: front, emission: {exitance: 100}}\n");
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.4);
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  double ceiling = 0;
+  for (const Triangle& t : mesh.triangles()) {
+    if (t.alive && t.normal.z < -0.9 && mesh.vertex(t.vertices[0]).surface.object == 0) {
+      ceiling += t.area;
+    }
+  }
+  EXPECT_GT(ceiling, 0.995 * (16 - 0.64));
+  EXPECT_LT(ceiling, 1.005 * 16);
+}
+
+/// A wall that the ends of slats stand on, none of whose creases is as long as the wall's points
+/// are apart.
+TEST(CoverTest, WallsAreCoveredBesideShortCreases) {
+  std::string text =
+      "materials: {m: {reflectance: 0.5}}\nobjects:\n  - {shape: {box: {lower: [0, 0, 0], "
+      "upper: [4, 4, 4], inward: true}}, material: m}\n";
+  constexpr int kSlats = 12;
+  for (int k = 0; k < kSlats; ++k) {
+    text += fmt::format(
+        "  - {{shape: {{box: {{lower: [1.5, 0, {0}], upper: [1.6, 1, {1}]}}}}, material: m}}\n",
+        1 + 0.08 * k, 1.004 + 0.08 * k);
+  }
+  const Scene scene = scene_of(text);
+  const RayCaster rays(scene);
+  const Triangulation mesh = covered(rays, 0.4);
+  EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+  double wall = 0;
+  for (const Triangle& t : mesh.triangles()) {
+    if (t.alive && mesh.vertex(t.vertices[0]).surface.object == 0 && t.normal.y > 0.9) {
+      wall += t.area;
+    }
+  }
+  EXPECT_NEAR(wall, 16 - kSlats * 0.1 * 0.004, 0.01);
+}
+
 TEST(CoverTest, LightsEmitAndOthersDoNot) {
   const Scene scene = paper_room();
   const RayCaster rays(scene);

@@ -95,6 +95,7 @@ class CoverPoints {
   bool going();
 
   void trace(const CreaseSeed& seed);
+  bool on_sheet_of(const CoverPoint& q, const SurfacePoint& point) const;
   bool known(const SurfacePoint& point, const Vec3& outward) const;
   std::optional<Vec3> outward_at(const ZonePoint& rim, const Vec3& direction, double size) const;
   std::optional<CreasePoint> next_on_crease(const CreasePoint& from, const Vec3& along,

@@ -158,7 +158,7 @@ void CoverPoints::even_out(std::vector<CreasePoint>& chain) const {
 /// No spacing along a crease is wider than to the further of the neighbours there: where something
 /// stood in the way of a longer step, points inside must stand closer, too.
 void CoverPoints::fit_spacings(std::vector<CreasePoint>& chain, bool closed) const {
-  constexpr double kShortest = 1.0 / 32;
+  constexpr double kShortest = 1.0 / 32;  // of the largest spacing: short creases need no less
   const std::size_t n = chain.size();
   for (std::size_t i = 0; i < n && n > 1; ++i) {
     const auto to = [&](std::size_t k) {
@@ -190,8 +190,7 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       const CoverPoint& q = points_[id];
       if (distance(q.position, crease.point.position) < same_place &&
           dot(q.normal, crease.point.normal) > walk_.cos_normal_tolerance() &&
-          dot(q.inward, normalized(crease.outward)) < -0.5 &&
-          walk_.over(q, crease.point.position)) {
+          dot(q.inward, normalized(crease.outward)) < -0.5 && on_sheet_of(q, crease.point)) {
         same = id;
       }
     }

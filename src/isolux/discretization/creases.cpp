@@ -13,6 +13,12 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
+/// Whether a point lies on the surface of `q`, rather than on a sheet close by.
+bool CoverPoints::on_sheet_of(const CoverPoint& q, const SurfacePoint& point) const {
+  const auto there = walk_.over(q, point.position);
+  return there && distance(there->position, point.position) < 0.02 * q.size;
+}
+
 /// Whether the crease is traced already where `point` lies on it, `outward` across it.
 bool CoverPoints::known(const SurfacePoint& point, const Vec3& outward) const {
   thread_local std::vector<std::uint32_t> ids;
@@ -23,12 +29,10 @@ bool CoverPoints::known(const SurfacePoint& point, const Vec3& outward) const {
     if (dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
     if (dot(q.inward, outward) > -0.3) return false;
     const double near = 0.08 * q.size;
-    if (distance(q.position, point.position) < near) {
-      return walk_.over(q, point.position).has_value();
-    }
+    if (distance(q.position, point.position) < near) return on_sheet_of(q, point);
     return std::any_of(along_crease_[id].begin(), along_crease_[id].end(), [&](std::uint32_t r) {
       return distance_to_segment(point.position, q.position, points_[r].position) < near &&
-             dot(point.position - q.position, q.inward) < near && walk_.over(q, point.position);
+             dot(point.position - q.position, q.inward) < near && on_sheet_of(q, point);
     });
   });
 }

@@ -1,6 +1,7 @@
 #include "isolux/discretization/surface_walk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace isolux {
@@ -9,6 +10,15 @@ namespace {
 // A surface that turns by up to α_n within a step is found within this part of the step's length
 // from the tangent plane.
 constexpr double kReach = 0.6;
+// What lies between two points is passed over at these parts of the drop between them: a quarter
+// is how far an arc bulges, half where the turn is made at one edge.
+constexpr std::array kLifts{0.3, 0.55};
+
+/// How far each of two points lies under the other's tangent plane at most, m.
+double drop_between(const SurfacePoint& a, const SurfacePoint& b) {
+  const Vec3 d = b.position - a.position;
+  return std::max({0.0, -dot(d, a.normal), dot(d, b.normal)});
+}
 
 }  // namespace
 
@@ -39,15 +49,18 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
   if (hits.empty()) return std::nullopt;
   const auto height = [&](const SurfaceHit& hit) { return std::abs(hit.t - reach); };
   std::ranges::stable_sort(hits, {}, height);
-  // Under a bent sheet, another one may lie nearer to the tangent plane, but hidden. Nor does the
-  // surface go on where it would have to rise more than it has turned.
+  // Another sheet may lie nearer to the tangent plane, but hidden: behind a hollow one, or where a
+  // tube dives under a flat one that it touches, lower than steps over its bulge are lifted. Nor
+  // does the surface go on where it would have to rise more than it has turned.
   const auto goes_on = [&](const SurfaceHit& hit) {
     const double cosine = dot(hit.normal, from.normal);
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
     if (height(hit) * cosine > length(along) * sine + rays_.epsilon()) return false;
     SurfacePoint there;
     there.position = hit.point, there.normal = hit.normal;
-    return open(from, there);
+    const double lift = kLifts.back() * drop_between(from, there), hair = 4 * rays_.epsilon();
+    return open(from, there) && (lift <= hair || !rays_.occluded({hit.point + hit.normal * hair,
+                                                                  hit.point + hit.normal * lift}));
   };
   auto sheet = hits.begin();
   if (hits.size() > 1) sheet = std::ranges::find_if(hits, goes_on);
@@ -59,11 +72,8 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
 }
 
 bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b) const {
-  // Lifted over the bulge of the surface between them: a quarter of how far each lies under the
-  // other's tangent plane; half of that where the turn is made at one edge.
-  const Vec3 d = b.position - a.position;
-  const double drop = std::max({0.0, -dot(d, a.normal), dot(d, b.normal)});
-  for (const double part : {0.3, 0.55}) {
+  const double drop = drop_between(a, b);
+  for (const double part : kLifts) {
     const double lift = part * drop + 8 * rays_.epsilon();
     if (!rays_.occluded({a.position + a.normal * lift, b.position + b.normal * lift})) return true;
     if (drop == 0) return false;

@@ -29,7 +29,8 @@ class SurfaceWalk {
   /// The point that light can reach where `hit` is; nothing where it is buried.
   std::optional<ZonePoint> at(const SurfaceHit& hit) const;
 
-  /// The point of the surface of `from` over or under `target`, along the normal of `from`.
+  /// The point of the surface of `from` over or under `target`, along the normal of `from`: of
+  /// several sheets there, the nearest to its tangent plane that can be seen from it.
   std::optional<ZonePoint> over(const ZonePoint& from, const Vec3& target) const;
 
   /// As over(), where besides nothing stands between.
