@@ -21,7 +21,7 @@ Solution roughly_solved() {
       "grey, sides: front}\n";
   Scene scene = scene_of(kMaterials + kSquareBehindEdge.light + kSquareBehindEdge.occluder + floor);
   Options options;
-  options.tolerance = 1;
+  options.tolerance = 0.03;
   Solved solved = solve(scene, options);
   return {std::move(scene), std::move(solved.mesh), options, solved.statistics, "test"};
 }

@@ -30,7 +30,7 @@ class SurfaceWalk {
   std::optional<ZonePoint> at(const SurfaceHit& hit) const;
 
   /// The point of the surface of `from` over or under `target`, along the normal of `from`: of
-  /// several sheets there, the nearest to its tangent plane that can be seen from it.
+  /// several sheets there, the nearest to its tangent plane that it may go on in.
   std::optional<ZonePoint> over(const ZonePoint& from, const Vec3& target) const;
 
   /// As over(), where besides nothing stands between.
