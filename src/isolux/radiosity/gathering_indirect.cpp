@@ -101,7 +101,7 @@ double Gathering::surprise(VertexId v) const {
 /// Lets vertices gather, and splits edges, where interpolation of E_i costs too much.
 void Gathering::refine_indirect() {
   constexpr int kMostRounds = 24;
-  constexpr std::size_t kFew = 2000;  // edges for each place that is not worth another round
+  constexpr std::size_t kFew = 500;  // edges for each place that is not worth another round
   const double target = square(kIndirectShare * state_.level * mean_irradiance()) * area();
   state_.indirect_error.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
