@@ -49,18 +49,15 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
   if (hits.empty()) return std::nullopt;
   const auto height = [&](const SurfaceHit& hit) { return std::abs(hit.t - reach); };
   std::ranges::stable_sort(hits, {}, height);
-  // Another sheet may lie nearer to the tangent plane, but hidden: behind a hollow one, or where a
-  // tube dives under a flat one that it touches, lower than steps over its bulge are lifted. Nor
-  // does the surface go on where it would have to rise more than it has turned.
+  // Another sheet may lie nearer to the tangent plane, but hidden, as behind a hollow one. Nor does
+  // the surface go on where it would have to rise more than it has turned.
   const auto goes_on = [&](const SurfaceHit& hit) {
     const double cosine = dot(hit.normal, from.normal);
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
     if (height(hit) * cosine > length(along) * sine + rays_.epsilon()) return false;
     SurfacePoint there;
     there.position = hit.point, there.normal = hit.normal;
-    const double lift = kLifts.back() * drop_between(from, there), hair = 4 * rays_.epsilon();
-    return open(from, there) && (lift <= hair || !rays_.occluded({hit.point + hit.normal * hair,
-                                                                  hit.point + hit.normal * lift}));
+    return open(from, there);
   };
   auto sheet = hits.begin();
   if (hits.size() > 1) sheet = std::ranges::find_if(hits, goes_on);
