@@ -139,26 +139,25 @@ void Gathering::estimate() {
     if (!triangle.alive) continue;
     for (VertexId v : triangle.vertices) {
       const double part = triangle.area / 3;
-      variance += variance_of(v) * part;
+      variance += variance_of(v) / square(scale(v)) * part;
       reflectance += luminance(mesh_.vertex(v).reflectance) * part;
       escaped += state_.light[v].escaped * part;
       total += part;
     }
   }
   if (!(total > 0 && mean_irradiance() > 0)) return;
-  state_.deviation = std::sqrt(variance / total);
   // What the emitters have too much or too little of all gather alike, once for every reflection.
   const double again = reflectance / total * (1 - escaped / total);
   const double unshot = state_.statistics.unshot_flux / total;
   state_.statistics.emitter_error =
       (kBiasLeft * again * std::abs(state_.bias) + unshot) / (1 - again);
   const double interpolation = std::sqrt(state_.direct_mean_square + state_.indirect_mean_square);
-  state_.statistics.discretization_error = interpolation / mean_irradiance();
-  state_.statistics.narrow_error = std::sqrt(state_.narrow_mean_square) / mean_irradiance();
-  state_.statistics.sampling_error = state_.deviation / mean_irradiance();
+  const double deviation = std::sqrt(variance / total);
+  state_.statistics.discretization_error = interpolation;
+  state_.statistics.narrow_error = std::sqrt(state_.narrow_mean_square);
+  state_.statistics.sampling_error = deviation;
   state_.statistics.error =
-      (std::hypot(interpolation, state_.deviation) + state_.statistics.emitter_error) /
-      mean_irradiance();
+      std::hypot(interpolation, deviation) + state_.statistics.emitter_error / mean_irradiance();
 }
 
 /// What goes with the solution.

@@ -53,7 +53,7 @@ void Gathering::look_closer() {
   constexpr double kTooOpen = 0.3;  // σ, of the tolerance
   std::vector<VertexId> open;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
-    if (state_.light[v].direct_deviation > kTooOpen * state_.level * mean_irradiance()) {
+    if (state_.light[v].direct_deviation > kTooOpen * state_.level * scale(v)) {
       open.push_back(v);
     }
   }
@@ -119,7 +119,7 @@ void Gathering::refine_direct() {
     if (callbacks_.checkpoint) callbacks_.checkpoint(state_);
     const std::vector<Edge> edges = living_edges(mesh_);
     sample(edges);
-    const double target = square(kDirectShare * state_.level * mean_irradiance());
+    const double target = square(kDirectShare * state_.level);
     const double total = direct_mean_square(edges);
     state_.direct_mean_square = total;
     if (stopped_ || total <= target || full()) return;

@@ -15,8 +15,8 @@ constexpr double kVerticesPart = 0.3;
 constexpr double kEdgesPart = 0.3;
 
 // However small the area is where interpolation is off by more than this many tolerances of the
-// mean irradiance, or of what is there where that is more: vertices gather there, and edges are
-// split as long as they are longer than this part of the longest.
+// what it is held against: vertices gather there, and edges are split as long as they are longer
+// than this part of the longest.
 constexpr double kMostBend = 1;
 constexpr double kFinest = 1.0 / 64;
 
@@ -102,7 +102,7 @@ double Gathering::surprise(VertexId v) const {
 void Gathering::refine_indirect() {
   constexpr int kMostRounds = 24;
   constexpr std::size_t kFew = 500;  // edges for each place that is not worth another round
-  const double target = square(kIndirectShare * state_.level * mean_irradiance()) * area();
+  const double target = square(kIndirectShare * state_.level) * area();
   state_.indirect_error.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     const std::vector<Edge> edges = living_edges(mesh_);
@@ -118,12 +118,12 @@ void Gathering::refine_indirect() {
 }
 
 /// The vertices that should gather for interpolation at all others to cost no more than `budget`
-/// (lx² m²). Where the doubt comes from those that a vertex lies among, they gather first.
+/// (m²). Where the doubt comes from those that a vertex lies among, they gather first.
 std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
   std::vector<std::pair<double, VertexId>> ranked;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     if (state_.light[v].gathers) continue;
-    ranked.emplace_back(kMeanSquare * square(state_.light[v].bend) * area_around(v), v);
+    ranked.emplace_back(kMeanSquare * square(state_.light[v].bend / scale(v)) * area_around(v), v);
   }
   std::sort(ranked.begin(), ranked.end(), std::greater<>());
   const std::size_t n = worth_taking<VertexId>(ranked, budget);
@@ -156,7 +156,7 @@ std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
 }
 
 /// The edges between gathering vertices in whose middle to gather, for the others to cost no more
-/// than `budget` (lx² m²).
+/// than `budget` (m²).
 std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double budget) const {
   std::vector<std::pair<double, std::uint32_t>> ranked;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
@@ -175,9 +175,7 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
   return suspect;
 }
 
-double Gathering::most_bend(VertexId v) const {
-  return kMostBend * state_.level * std::max(mean_irradiance(), luminance(irradiance(v)));
-}
+double Gathering::most_bend(VertexId v) const { return kMostBend * state_.level * scale(v); }
 
 /// Whether an error e in the middle of an edge is worth a split even where the area is small.
 bool Gathering::stands_out(const Edge& edge, double e) const {
@@ -237,7 +235,7 @@ void Gathering::learn_bend(double foreseen, double found, double noise, std::siz
 /// the light there better now.
 std::vector<VertexId> Gathering::outdated_vertices() const {
   if (state_.split_since.empty()) return {};
-  const double matters = kRenewalShare * state_.level * mean_irradiance();
+  const double matters = kRenewalShare * state_.level;
   std::vector<char> touched(state_.light.size());  // ends of such edges
   for (const auto& [edge, error] : state_.split_since)
     touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
@@ -258,8 +256,9 @@ std::vector<VertexId> Gathering::outdated_vertices() const {
   parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Row<Link>& row = state_.light[v].row;
-      renew[v] = state_.light[v].gathers &&
-                 mean_over(row, [&](std::size_t i) { return gain[row.rays[i].site]; }) > matters;
+      renew[v] = state_.light[v].gathers && mean_over(row, [&](std::size_t i) {
+                                              return gain[row.rays[i].site];
+                                            }) > matters * scale(static_cast<VertexId>(v));
     }
   });
   std::vector<VertexId> vertices;
@@ -336,7 +335,7 @@ double Gathering::indirect_error(const Edge& e) const {
   return (a.bend + b.bend) / 2;
 }
 
-/// What interpolation of E_i costs, lx².
+/// What interpolation of E_i costs, relative.
 double Gathering::indirect_mean_square() const {
   double sum = 0;
   for (const Edge& e : living_edges(mesh_)) sum += cost(e, indirect_error(e));

@@ -144,9 +144,15 @@ class Gathering {
     return static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
   }
 
-  /// What an error in the middle of an edge adds to the square of the error over all surfaces,
-  /// lx² m².
-  static double cost(const Edge& edge, double e) { return kMeanSquare * e * e * edge.area; }
+  /// What errors at a vertex are held against, lx: the mean of E over all surfaces, or E there
+  /// where that is more. Else the inside of a small lamp would be all that counts.
+  double scale(VertexId v) const { return std::max(mean_irradiance(), luminance(irradiance(v))); }
+  double scale(const Edge& edge) const { return (scale(edge.a) + scale(edge.b)) / 2; }
+
+  /// What an error in the middle of an edge adds to the square of the error over all surfaces, m².
+  double cost(const Edge& edge, double e) const {
+    return kMeanSquare * square(e / scale(edge)) * edge.area;
+  }
 
   static double signed_error(const std::unordered_map<std::uint64_t, float>& errors,
                              const Edge& e) {

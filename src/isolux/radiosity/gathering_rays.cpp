@@ -76,20 +76,23 @@ std::vector<double> Gathering::areas_of_influence() {
 std::vector<int> Gathering::wanted_grids() {
   constexpr double kMostNoise = 2;
   constexpr double kDim = 0.25;  // of the mean irradiance
+  std::vector<int> grids(state_.light.size(), kCoarsestGrid);
+  if (!(mean_irradiance() > 0)) return grids;
   const std::vector<double> areas = areas_of_influence(), doubt = doubts();
-  const auto worth = [&](VertexId v) { return std::pow(areas[v] * doubt[v], 1 / (1 + kFall)); };
+  const auto worth = [&](VertexId v) {
+    return std::pow(areas[v] * doubt[v] / square(scale(v)), 1 / (1 + kFall));
+  };
   double sum = 0;
   for (VertexId v = 0; v < areas.size(); ++v) {
     if (state_.light[v].gathers) sum += worth(v);
   }
-  const double allowed = square(kSamplingShare * state_.level * mean_irradiance()) * area();
-  const double fineness = allowed > 0 ? std::pow(sum / allowed, 1 / kFall) : 0;
-  std::vector<int> grids(areas.size());
+  const double allowed = square(kSamplingShare * state_.level) * area();
+  const double fineness = std::pow(sum / allowed, 1 / kFall);
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
       const double e = std::max(luminance(irradiance(v)), kDim * mean_irradiance());
       const double most = square(kMostNoise * state_.level * e);
-      const double least = most > 0 ? std::pow(doubt[v] / most, 1 / kFall) : 0;
+      const double least = std::pow(doubt[v] / most, 1 / kFall);
       const double side = std::ceil(std::sqrt(std::max(fineness * worth(v), least)));
       grids[v] = static_cast<int>(
           std::clamp(side, double(kCoarsestGrid), double(HemisphereGather::kFinestGrid)));

@@ -57,12 +57,11 @@ struct GatheringState {
   std::unordered_map<std::uint64_t, float> split_since;
   double level = 0;  // the tolerance that is being worked for
   int tries = 0;     // levels below the tolerance asked for
-  double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, lx²
-  double narrow_mean_square = 0;  // of interpolating E_d along edges too short to be split, lx²
+  double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, relative
+  double narrow_mean_square = 0;  // of interpolating E_d along edges too short to be split
   double bend_scale = 0.7;        // the rule for errors of interpolating E_i is right times this
   double bias = 0;                // mean of direct_error, lx
   Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
-  double deviation = 0;   // root mean square of σ, lx
   Statistics statistics;
 };
 

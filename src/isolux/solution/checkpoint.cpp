@@ -69,7 +69,6 @@ void for_each_scalar(State& state, F&& f) {
   f("narrow_mean_square", state.narrow_mean_square);
   f("bend_scale", state.bend_scale);
   f("bias", state.bias);
-  f("deviation", state.deviation);
   f("balance_r", state.balance.r);
   f("balance_g", state.balance.g);
   f("balance_b", state.balance.b);
