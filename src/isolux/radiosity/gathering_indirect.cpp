@@ -10,14 +10,14 @@ constexpr double kIndirectShare = 0.65;  // of the tolerance: interpolation of E
 constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain from finer triangles
 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what
-// edges may. Half of it is left for the two falling together.
-constexpr double kVerticesPart = 0.3;
-constexpr double kEdgesPart = 0.3;
+// edges may.
+constexpr double kVerticesPart = 0.5;
+constexpr double kEdgesPart = 0.5;
 
 // However small the area is where interpolation is off by more than this many tolerances of the
 // what it is held against: vertices gather there, and edges are split as long as they are longer
 // than this part of the longest.
-constexpr double kMostBend = 1;
+constexpr double kMostBend = 1.5;
 constexpr double kFinest = 1.0 / 64;
 
 // E_i in the middle between two vertices is off their mean, as a rule, by this part of their

@@ -39,7 +39,7 @@ class Gathering {
   static constexpr std::size_t kGrain = 256;
 
   // Rays over a hemisphere, cells a side, until it is known who gathers.
-  static constexpr int kTrialGrid = 16;
+  static constexpr int kTrialGrid = 12;
 
   // Of a linear function's error squared over a triangle, as a mean: 8/45 (Σ e² + Σ e e') for the
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
