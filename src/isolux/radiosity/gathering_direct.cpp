@@ -47,20 +47,24 @@ void Gathering::light_newborn() {
   light_directly(newborn);
 }
 
+/// Whether σ of E_d is too much for the level, where errors are held against `scale`, lx.
+bool Gathering::too_open(double deviation, double scale) const {
+  constexpr double kTooOpen = 0.3;  // of the tolerance
+  return deviation > kTooOpen * state_.level * scale;
+}
+
 /// Looks closer at E_d of vertices where a shadow's edge on a light was left too open for a
 /// stricter level.
 void Gathering::look_closer() {
-  constexpr double kTooOpen = 0.3;  // σ, of the tolerance
   std::vector<VertexId> open;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
-    if (state_.light[v].direct_deviation > kTooOpen * state_.level * scale(v)) {
-      open.push_back(v);
-    }
+    if (too_open(state_.light[v].direct_deviation, scale(v))) open.push_back(v);
   }
   light_directly(open);
 }
 
-/// The surface over the middles of `chosen` edges, and E_d there, until told to stop.
+/// The surface over the middles of `chosen` edges, and E_d there, if it is not known well enough,
+/// until told to stop.
 void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
                               std::span<Middle> middles) {
   parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -73,6 +77,13 @@ void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::
   std::vector<std::uint32_t> of;
   for (std::uint32_t i : chosen) {
     if (!middles[i].point) continue;
+    const auto known = state_.middles.find(edges[i].key());
+    if (known != state_.middles.end() && !too_open(known->second.deviation, scale(edges[i]))) {
+      const auto& [direct, deviation, error] = known->second;
+      middles[i].direct = {direct[0], direct[1], direct[2]};
+      middles[i].deviation = deviation;
+      continue;
+    }
     receivers.push_back({middles[i].point->position, middles[i].point->normal});
     of.push_back(i);
   }
@@ -102,7 +113,7 @@ std::vector<Gathering::Middle> Gathering::middles_of(std::span<const Edge> edges
 }
 
 /// e of E_d at the middle of an edge, signed; what chance adds to it left out.
-double Gathering::direct_error(const Edge& edge, const Middle& middle) const {
+double Gathering::error_at(const Edge& edge, const Middle& middle) const {
   if (!middle.point) return 0;
   const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
   const double e = luminance((a.direct + b.direct) / 2 - middle.direct);
@@ -110,6 +121,13 @@ double Gathering::direct_error(const Edge& edge, const Middle& middle) const {
       middle.deviation * middle.deviation +
       (a.direct_deviation * a.direct_deviation + b.direct_deviation * b.direct_deviation) / 4;
   return std::copysign(std::sqrt(std::max(0.0, e * e - noise)), e);
+}
+
+MiddleLight Gathering::packed(const Middle& middle, double error) {
+  const Rgb& e = middle.direct;
+  return {{static_cast<float>(e.r), static_cast<float>(e.g), static_cast<float>(e.b)},
+          static_cast<float>(middle.deviation),
+          static_cast<float>(error)};
 }
 
 /// Splits edges until interpolation of E_d costs no more than its share.
@@ -131,22 +149,22 @@ void Gathering::refine_direct() {
 
 /// E_d in the middles of edges that were not looked at yet.
 void Gathering::sample(std::span<const Edge> edges) {
-  if (state_.direct_error.size() > 3 * edges.size()) {
-    std::unordered_map<std::uint64_t, float> living;
+  if (state_.middles.size() > 3 * edges.size()) {
+    std::unordered_map<std::uint64_t, MiddleLight> living;
     for (const Edge& e : edges) {
-      if (const auto at = state_.direct_error.find(e.key()); at != state_.direct_error.end())
+      if (const auto at = state_.middles.find(e.key()); at != state_.middles.end())
         living.insert(*at);
     }
-    state_.direct_error.swap(living);
+    state_.middles.swap(living);
   }
   std::vector<Edge> fresh;
   for (const Edge& e : edges) {
-    if (!state_.direct_error.contains(e.key())) fresh.push_back(e);
+    if (!state_.middles.contains(e.key())) fresh.push_back(e);
   }
   const std::vector<Middle> middles = middles_of(fresh);
   if (stopped_) return;
   for (std::size_t i = 0; i < fresh.size(); ++i) {
-    state_.direct_error[fresh[i].key()] = static_cast<float>(direct_error(fresh[i], middles[i]));
+    state_.middles[fresh[i].key()] = packed(middles[i], error_at(fresh[i], middles[i]));
   }
 }
 
@@ -161,10 +179,9 @@ bool Gathering::hairline(const Edge& edge) const {
 double Gathering::direct_mean_square(std::span<const Edge> edges) {
   double sum = 0, narrow = 0, bias = 0;
   for (const Edge& e : edges) {
-    const auto at = state_.direct_error.find(e.key());
-    if (at == state_.direct_error.end()) continue;
-    (hairline(e) ? narrow : sum) += cost(e, at->second);
-    bias += at->second * e.area / 3;
+    const double error = direct_error(e);
+    (hairline(e) ? narrow : sum) += cost(e, error);
+    bias += error * e.area / 3;
   }
   state_.bias = bias / area();
   state_.narrow_mean_square = narrow / area();
@@ -175,7 +192,7 @@ double Gathering::direct_mean_square(std::span<const Edge> edges) {
 void Gathering::split_worst(std::span<const Edge> edges, double total, double target) {
   std::vector<std::pair<double, std::uint32_t>> ranked;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const double share = cost(edges[i], state_.direct_error.at(edges[i].key())) / area();
+    const double share = cost(edges[i], direct_error(edges[i])) / area();
     if (share > 0 && !hairline(edges[i])) ranked.emplace_back(-share, i);
   }
   std::sort(ranked.begin(), ranked.end());
@@ -234,13 +251,12 @@ void Gathering::split(std::span<const Edge> edges, std::span<const Middle> middl
     if (!middles[i].point) continue;
     const std::optional<VertexId> v = mesh_.split_edge(a, b, *middles[i].point);
     if (!v) {
-      state_.direct_error[edges[i].key()] = 0;  // stays as it is: nothing to gain here
+      state_.middles[edges[i].key()] = packed(middles[i], 0);  // stays: nothing to gain here
       continue;
     }
     ++state_.statistics.split;
     state_.split_since[edges[i].key()] =
-        static_cast<float>(std::abs(signed_error(state_.direct_error, edges[i]) +
-                                    signed_error(state_.indirect_error, edges[i])));
+        static_cast<float>(std::abs(direct_error(edges[i]) + known_indirect_error(edges[i])));
     state_.light.resize(mesh_.vertices().size());
     state_.sent.resize(mesh_.vertices().size());
     VertexLight& light = state_.light[*v];

@@ -68,7 +68,9 @@ class Gathering {
   std::vector<Middle> middles_of(std::span<const Edge> edges);
   void light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
                      std::span<Middle> middles);
-  double direct_error(const Edge& edge, const Middle& middle) const;
+  double error_at(const Edge& edge, const Middle& middle) const;
+  static MiddleLight packed(const Middle& middle, double error);
+  bool too_open(double deviation, double scale) const;
   void sample(std::span<const Edge> edges);
   bool hairline(const Edge& edge) const;
   double direct_mean_square(std::span<const Edge> edges);
@@ -154,10 +156,15 @@ class Gathering {
     return kMeanSquare * square(e / scale(edge)) * edge.area;
   }
 
-  static double signed_error(const std::unordered_map<std::uint64_t, float>& errors,
-                             const Edge& e) {
-    const auto at = errors.find(e.key());
-    return at == errors.end() ? 0 : at->second;
+  /// Of interpolation in the middle of an edge as far as it was looked at, lx, positive where it is
+  /// too bright.
+  double direct_error(const Edge& e) const {
+    const auto at = state_.middles.find(e.key());
+    return at == state_.middles.end() ? 0 : at->second.error;
+  }
+  double known_indirect_error(const Edge& e) const {
+    const auto at = state_.indirect_error.find(e.key());
+    return at == state_.indirect_error.end() ? 0 : at->second;
   }
 
   /// The mean of the errors `e` of edges around each vertex, by area, so that the sum over the

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <unordered_map>
@@ -31,6 +32,13 @@ struct VertexLight {
   Row<Link> row;  // where it gathers; few where it does not, for a glimpse
 };
 
+/// E_d in the middle of an edge. In single precision, for there are many.
+struct MiddleLight {
+  std::array<float, 3> direct{};  // lx
+  float deviation = 0;            // σ of its luminance, lx
+  float error = 0;                // of interpolation there, lx, positive where it is too bright
+};
+
 /// What gathering knows between two of its rounds: enough to go on from there.
 struct GatheringState {
   explicit GatheringState(Triangulation triangulation) : mesh(std::move(triangulation)) {}
@@ -50,9 +58,10 @@ struct GatheringState {
   std::vector<VertexLight> light;  // by vertex
   SiteTable sites;                 // where the links in `light` lead
   std::vector<Rgb> sent;           // E by vertex as its triangles have it on average, lx
-  /// Errors of interpolation in the middle of edges, lx, positive where it is too bright, by the
-  /// ends a < b: a × 2³² + b.
-  std::unordered_map<std::uint64_t, float> direct_error, indirect_error;
+  /// What was found in the middle of edges, by the ends a < b: a × 2³² + b.
+  std::unordered_map<std::uint64_t, MiddleLight> middles;
+  /// The errors of interpolating E_i there, lx, positive where it is too bright.
+  std::unordered_map<std::uint64_t, float> indirect_error;
   /// Edges that were split since links were last made or found good, and their |e|.
   std::unordered_map<std::uint64_t, float> split_since;
   double level = 0;  // the tolerance that is being worked for
@@ -60,7 +69,7 @@ struct GatheringState {
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, relative
   double narrow_mean_square = 0;  // of interpolating E_d along edges too short to be split
   double bend_scale = 0.7;        // the rule for errors of interpolating E_i is right times this
-  double bias = 0;                // mean of direct_error, lx
+  double bias = 0;                // mean of MiddleLight::error, lx
   Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
   Statistics statistics;
 };

@@ -95,10 +95,9 @@ void Gathering::foresee_bends(VertexId first) {
 /// By how much interpolation is too bright around each vertex.
 void Gathering::find_excess() {
   const std::vector<Edge> edges = living_edges(mesh_);
-  indirect_excess_ =
-      around_vertices(edges, [&](const Edge& e) { return signed_error(state_.indirect_error, e); });
+  indirect_excess_ = around_vertices(edges, [&](const Edge& e) { return known_indirect_error(e); });
   const std::vector<double> direct_excess =
-      around_vertices(edges, [&](const Edge& e) { return signed_error(state_.direct_error, e); });
+      around_vertices(edges, [&](const Edge& e) { return direct_error(e); });
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     state_.light[v].excess = direct_excess[v] + indirect_excess_[v];
     sum_up(v);

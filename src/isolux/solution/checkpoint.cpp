@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "isolux checkpoint 3";
+constexpr const char* kFormat = "isolux checkpoint 4";
 
 [[noreturn]] void damaged(const char* key) {
   throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
@@ -57,6 +57,12 @@ struct PackedLight {
 struct PackedError {
   std::uint64_t edge = 0;
   float error = 0;
+  std::uint32_t unused = 0;
+};
+
+struct PackedMiddle {
+  std::uint64_t edge = 0;
+  MiddleLight light;
   std::uint32_t unused = 0;
 };
 
@@ -184,7 +190,9 @@ json state_to_json(const GatheringState& state) {
   put(object, "divided", divided);
   put(object, "sites", std::vector(state.sites.sites().begin(), state.sites.sites().end()));
   put(object, "sent", state.sent);
-  put_errors(object, "direct_error", state.direct_error);
+  std::vector<PackedMiddle> middles;
+  for (const auto& [edge, light] : state.middles) middles.push_back({edge, light});
+  put(object, "middles", middles);
   put_errors(object, "indirect_error", state.indirect_error);
   put_errors(object, "split_since", state.split_since);
   for_each_scalar(state, [&](const char* key, double value) { object[key] = value; });
@@ -254,7 +262,9 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
     }
   }
   if (state.sent.size() != vertex_count) damaged("sent");
-  state.direct_error = get_errors(object, "direct_error");
+  for (const PackedMiddle& p : get<PackedMiddle>(object, "middles")) {
+    state.middles[p.edge] = p.light;
+  }
   state.indirect_error = get_errors(object, "indirect_error");
   state.split_since = get_errors(object, "split_since");
   for_each_scalar(state, [&](const char* key, double& value) {
