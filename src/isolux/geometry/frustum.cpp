@@ -176,15 +176,17 @@ bool Frustum::occludes(const Ray& ray, double t_min, double t_max) const {
   return false;
 }
 
-/// occludes() of a capped frustum for many lines at once: localize(), inside_cone() and crossings()
-/// without branches. Lines that cross one nappe alone, or are parallel to the side or the caps, are
-/// left to the caller: `one_by_one`.
+/// occludes() for many lines at once: localize(), inside_cone() and crossings() without branches.
+/// Lines that cross one nappe alone, or are parallel to the side or the caps, are left to the
+/// caller: `one_by_one`.
 ISOLUX_VECTORIZE
-void Frustum::occlude_by_solid(const Frustum& solid, const SegmentBlock& segments, double t_max,
-                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one) {
-  const Vec3 start = solid.start_, u = solid.frame_.u, v = solid.frame_.v, n = solid.frame_.n;
-  const Vec3 middle = start + n * (0.5 * solid.length_);
-  const double slope = solid.slope_, start_radius = solid.start_radius_, top = solid.length_;
+void Frustum::occlude_regular(const Frustum& frustum, const SegmentBlock& segments, double t_max,
+                              SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one) {
+  const Vec3 start = frustum.start_, u = frustum.frame_.u, v = frustum.frame_.v,
+             n = frustum.frame_.n;
+  const Vec3 middle = start + n * (0.5 * frustum.length_);
+  const double slope = frustum.slope_, start_radius = frustum.start_radius_, top = frustum.length_;
+  const bool capped = frustum.capped_;
   for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
     const Ray ray = segments.ray(i);
     const double shift = dot(middle - ray.origin, ray.direction) / length_squared(ray.direction);
@@ -204,21 +206,25 @@ void Frustum::occlude_by_solid(const Frustum& solid, const SegmentBlock& segment
     const double q = -(b + std::copysign(root, b));
     const double s1 = q / a, s2 = c / q;
     const double at_start = -o.z / d.z, at_end = (top - o.z) / d.z;
-    const double enter = std::max(std::min(s1, s2), std::min(at_start, at_end));
-    const double leave = std::min(std::max(s1, s2), std::max(at_start, at_end));
+    const double low = std::min(s1, s2), high = std::max(s1, s2);
+    const double enter = capped ? std::max(low, std::min(at_start, at_end)) : low;
+    const double leave = capped ? std::min(high, std::max(at_start, at_end)) : high;
     const double first = enter + shift, last = leave + shift;
-    const bool regular = (a > 0) & (d.z != 0);
-    blocked[i] |= regular & (root > 0) & (enter < leave) &
-                  (((first > 0) & (first < t_max)) | ((last > 0) & (last < t_max)));
+    const double first_z = o.z + enter * d.z, last_z = o.z + leave * d.z;
+    const bool first_there = capped | ((first_z >= 0) & (first_z <= top));
+    const bool last_there = capped | ((last_z >= 0) & (last_z <= top));
+    const bool regular = (a > 0) & ((d.z != 0) | !capped);
+    blocked[i] |= regular & (root > 0) & (!capped | (enter < leave)) &
+                  ((first_there & (first > 0) & (first < t_max)) |
+                   (last_there & (last > 0) & (last < t_max)));
     one_by_one[i] = regular ? 0 : 1;
   }
 }
 
 void Frustum::occlude(const SegmentBlock& segments, double t_max,
                       SegmentBlock::Mask& blocked) const {
-  if (!capped_) return Shape::occlude(segments, t_max, blocked);
   SegmentBlock::Mask one_by_one;
-  occlude_by_solid(*this, segments, t_max, blocked, one_by_one);
+  occlude_regular(*this, segments, t_max, blocked, one_by_one);
   for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
     if (one_by_one[i]) blocked[i] |= occludes(segments.ray(i), 0, t_max);
   }

@@ -31,8 +31,8 @@ class Frustum : public Shape {
   };
   struct Line;
   struct Crossings;
-  static void occlude_by_solid(const Frustum& solid, const SegmentBlock& segments, double t_max,
-                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one);
+  static void occlude_regular(const Frustum& frustum, const SegmentBlock& segments, double t_max,
+                              SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one);
   Line localize(const Ray& ray) const;
   Crossings crossings(const Line& line) const;
   Hit hit(const Line& line, const Crossing& crossing) const;
