@@ -68,6 +68,52 @@ TEST(FormFactor, TinyAndHugeSolidAnglesAreExact) {
   EXPECT_NEAR(form_factor({0, 0, 0}, {0, 0, 1}, huge), 1, 1e-11);
 }
 
+TEST(FormFactor, OfASphereIsThatOfManyTriangles) {
+  const Vec3 center{0.2, -0.1, 0.4};
+  const double radius = 0.3;
+  const TriangleSoup soup = *Sphere(center, radius).triangulate(0.006);
+  Random random(8);
+  std::array<int, 3> count{};
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 way = normalized(Vec3{random.uniform(), random.uniform(), random.uniform()} -
+                                Vec3{0.5, 0.5, 0.5});
+    const Vec3 point = center - way * (radius * (1.05 + 4 * std::pow(random.uniform(), 3)));
+    const double sine = radius / distance(center, point);
+    // The angle between normal and centre, from well above to below the horizon.
+    const double angle =
+        kPi / 2 + (i % 3 == 0 ? 3 : 1) * (2 * random.uniform() - 1) * std::asin(sine);
+    const Frame frame(way);
+    const Vec3 normal = frame.to_world({std::sin(angle), 0, std::cos(angle)});
+    const double expected = form_factor_of_soup(point, normal, soup);
+    const double found = sphere_form_factor(point, normal, center, radius);
+    EXPECT_NEAR(found, expected, 3e-4 * sine * sine) << i;
+    ++count[found == 0 ? 0 : angle < kPi / 2 ? 1 : 2];
+  }
+  for (const int some : count) EXPECT_GT(some, 3);
+}
+
+TEST(FormFactor, OfASphereIsExactAtItsLimits) {
+  const Vec3 up{0, 0, 1}, center{0, 0, 2};
+  EXPECT_NEAR(sphere_form_factor({0, 0, 0}, up, center, 0.5), 1. / 16, 1e-15);
+  EXPECT_NEAR(sphere_form_factor({0, 0, 0}, up, center, 2 - 1e-9), 1, 2e-9);
+  EXPECT_EQ(sphere_form_factor({0, 0, 0}, up, center, 2.1), 0) << "inside";
+  EXPECT_EQ(sphere_form_factor({0, 0, 0}, {0, 0, -1}, center, 1.9), 0) << "turned away";
+  // On the horizon half a hemisphere's view from close by; elsewhere continuous.
+  EXPECT_NEAR(sphere_form_factor({0, 0, 0}, {1, 0, 0}, center, 2 - 1e-9), 0.5, 1e-4);
+  const double sine = 0.25, grazing = kPi / 2 - std::asin(sine), step = 1e-6;
+  for (const double angle : {grazing, kPi - grazing}) {
+    const auto at = [&](double a) {
+      return sphere_form_factor({0, 0, 0}, {std::sin(a), 0, std::cos(a)}, center, 2 * sine);
+    };
+    EXPECT_NEAR(at(angle - step), at(angle + step), 1e-6);
+  }
+  // A speck on the horizon: the mean cosine of a half disk is 4 / 3π of its radius.
+  const double radius = 2e-4;
+  EXPECT_NEAR(sphere_form_factor({0, 0, 0}, {1, 0, 0}, center, radius) /
+                  (2. / 3 / kPi * std::pow(radius / 2, 3)),
+              1, 1e-6);
+}
+
 /// One entry of the list of closed forms; what comes out of the method, and how near it must be.
 struct Computed {
   double value, tolerance;

@@ -114,4 +114,19 @@ void form_factors(std::span<const Receiver> receivers, std::span<const std::uint
   }
 }
 
+double sphere_form_factor(const Vec3& point, const Vec3& normal, const Vec3& center,
+                          double radius) {
+  // Notation: h = distance of the centre / radius, c = cos of the angle between it and the normal,
+  // g² = h² − 1, w² = 1 − h² c².
+  const Vec3 to_center = center - point;
+  const double d = length(to_center), h = d / radius;
+  if (!(h > 1)) return 0;
+  const double hc = dot(to_center, normal) / radius, c = hc / h;
+  if (hc >= 1) return c / (h * h);
+  if (hc <= -1) return 0;
+  const double g = std::sqrt((h - 1) * (h + 1)), w = std::sqrt((1 - hc) * (1 + hc));
+  const double sum = std::atan2(w, g) + (c * std::atan2(w, -g * c) - g * w) / (h * h);
+  return std::max(0.0, sum) / std::numbers::pi;
+}
+
 }  // namespace isolux

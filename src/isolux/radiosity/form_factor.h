@@ -27,4 +27,8 @@ double form_factor(const Vec3& point, const Vec3& normal, std::span<const Vec3> 
 void form_factors(std::span<const Receiver> receivers, std::span<const std::uint32_t> indices,
                   const std::array<Vec3, 3>& triangle, std::span<double> factors);
 
+/// The same to a sphere, seen whole from outside; 0 from inside. The horizon may cut it (Snyder
+/// 1969, "Radiant energy transfer").
+double sphere_form_factor(const Vec3& point, const Vec3& normal, const Vec3& center, double radius);
+
 }  // namespace isolux

@@ -1,7 +1,11 @@
 #include "isolux/radiosity/light_lattice.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <numbers>
+
+#include "isolux/geometry/shape_description.h"
 
 namespace isolux {
 namespace {
@@ -60,6 +64,30 @@ class LatticeBuilder {
     light_.pieces.push_back(piece);
   }
 
+  /// The unit disk: the square lattice mapped concentrically (Shirley & Chiu 1997), each ring
+  /// widened a little so that its chords enclose the area of its circle.
+  void disk() {
+    constexpr int kRings = kLines / 2;
+    std::array<std::array<Index, kLines + 1>, kLines + 1> at{};
+    for (int j = 0; j <= kLines; ++j) {
+      for (int i = 0; i <= kLines; ++i) {
+        // What reaches in over the rim is between no two of every other point there.
+        const bool on_rim = i % kLines == 0 || j % kLines == 0;
+        const bool early = looked_at_first(i, j) || (on_rim && (i + j) % 2 == 0);
+        at[j][i] = point(on_disk(i - kRings, j - kRings), {}, early);
+      }
+    }
+    for (int j = 0; j < kLines; ++j) {
+      for (int i = 0; i < kLines; ++i) {
+        const std::array<Index, 4> cell{at[j][i], at[j][i + 1], at[j + 1][i + 1], at[j + 1][i]};
+        // Cut towards the middle.
+        const std::size_t k = (i < kRings) == (j < kRings) ? 0 : 1;
+        triangle({cell[k], cell[k + 1], cell[k + 2]});
+        triangle({cell[k], cell[k + 2], cell[(k + 3) % 4]});
+      }
+    }
+  }
+
   /// A curved surface: its triangles are pieces and lattice at once.
   void curved(const TriangleSoup& soup) {
     light_.flatness = 5e-4;
@@ -100,6 +128,19 @@ class LatticeBuilder {
   }
 
  private:
+  /// Where the point (x, y) of the square lattice, counted from its middle, lies on the disk.
+  static Vec3 on_disk(int x, int y) {
+    using std::numbers::pi;
+    const int ring = std::max(std::abs(x), std::abs(y));
+    if (ring == 0) return {};
+    const double quarter = pi / 4;
+    const double angle = std::abs(x) == ring ? quarter * (double(y) / x) + (x < 0 ? pi : 0)
+                                             : quarter * (2 - double(x) / y) + (y < 0 ? pi : 0);
+    const double side = quarter / ring;  // of the polygon in the circle, rad
+    const double radius = ring / (0.5 * kLines) * std::sqrt(side / std::sin(side));
+    return {radius * std::cos(angle), radius * std::sin(angle), 0};
+  }
+
   Index line(Index a, Index b) {
     const auto [found, born] =
         known_.try_emplace(std::minmax(a, b), static_cast<Index>(light_.lines.size()));
@@ -112,15 +153,37 @@ class LatticeBuilder {
   std::map<std::pair<Index, Index>, Index> known_;
 };
 
+/// The object as a ball, where it is one that shines outwards.
+std::optional<Ball> ball_of(const Object& object, double lift) {
+  const ShapeDescription shape = object.shape->describe();
+  if (shape.kind != "sphere") return std::nullopt;
+  Ball ball{*shape.find<Vec3>("center"), *shape.find<double>("radius"), lift};
+  if (shape.transform) {
+    const std::optional<double> factor = shape.transform->similarity();
+    if (!factor) return std::nullopt;
+    ball.center = shape.transform->point(ball.center);
+    ball.radius *= *factor;
+  }
+  return ball;
+}
+
 }  // namespace
 
-std::shared_ptr<const LightLattice> lattice_of(const Object& object, double lift) {
+std::shared_ptr<const LightLattice> lattice_of(const Scene& scene, std::uint32_t index,
+                                               double lift) {
+  const Object& object = scene.objects[index];
   constexpr std::size_t kMostFlat = 16;  // triangles; of more, each is small enough by itself
+  auto light = std::make_shared<LightLattice>();
+  light->object = index;
+  light->exitance = object.exitance;
+  light->ball = ball_of(object, lift);
+  LatticeBuilder builder(*light, lift);
+  if (light->ball) {
+    builder.disk();
+    return light;
+  }
   const double size = object.shape->bounds().diagonal();
   const TriangleSoup soup = *object.shape->triangulate(size);
-  auto light = std::make_shared<LightLattice>();
-  light->exitance = object.exitance;
-  LatticeBuilder builder(*light, lift);
   const std::vector<Vec3>& p = soup.points;
   const double tolerance = 1e-9 * size;
   if (soup.triangles.size() > kMostFlat) {

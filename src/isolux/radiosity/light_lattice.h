@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Piece {
   /// surface is no more than this before the piece, and must not see it.
   double off = 0;
 
+  /// How far before the piece, and whatever surface it stands for, the point is, m.
+  double before(const Vec3& point) const { return dot(point - corners[0], normal) - off; }
   std::span<const Vec3> polygon() const { return {corners.data(), corner_count}; }
 };
 
@@ -38,14 +41,26 @@ struct LatticeLine {
   Vec3 rise;
 };
 
+/// A light that is a ball, m.
+struct Ball {
+  Vec3 center;
+  double radius;
+  double lift;  ///< by which points are lifted off its surface
+};
+
 /// A light's surface as points, lines between them and triangles, in flat pieces.
+///
+/// Of a ball each receiver sees another cap: its lattice lies in the unit disk z = 0 that stands
+/// for any of these (BallView), and it has no pieces.
 struct LightLattice {
+  std::uint32_t object = 0;  ///< the light in the scene
   Rgb exitance;
+  std::optional<Ball> ball;
   /// One standard deviation, relative, from flat pieces that stand for a curved surface.
   double flatness = 0;
-  Bounds bounds;
+  Bounds bounds;  ///< of the points on the surface
   std::vector<Piece> pieces;
-  std::vector<Vec3> points;  ///< a hair above the surface
+  std::vector<Vec3> points;  ///< a hair above the surface, m; of a ball in the unit disk
   std::vector<LatticeLine> lines;
   std::vector<LatticeTriangle> triangles;
   std::vector<std::uint32_t> first_look, second_look;  ///< the points, in two portions
@@ -56,8 +71,9 @@ struct LightLattice {
   }
 };
 
-/// Cuts an object's surface into pieces with their lattices, `lift` (m) above it. The shape is one
-/// that can be cut into triangles.
-std::shared_ptr<const LightLattice> lattice_of(const Object& object, double lift);
+/// Cuts the surface of the scene's object of that index into pieces with their lattices, `lift` (m)
+/// above it. The shape is one that can be cut into triangles.
+std::shared_ptr<const LightLattice> lattice_of(const Scene& scene, std::uint32_t object,
+                                               double lift);
 
 }  // namespace isolux

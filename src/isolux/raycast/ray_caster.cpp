@@ -291,7 +291,8 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
   }
 }
 
-Blockers RayCaster::blockers(const Bounds& from, const Bounds& to) const {
+Blockers RayCaster::blockers(const Bounds& from, const Bounds& to,
+                             std::optional<std::uint32_t> except) const {
   constexpr std::size_t kMostParts = 4;
   Blockers found;
   // Room for the hair by which points are lifted off surfaces. It lifts them off the walls of a
@@ -304,6 +305,7 @@ Blockers RayCaster::blockers(const Bounds& from, const Bounds& to) const {
   found.many_ = impl_->bounds_tree->any(
       [&](const Bounds& box) { return !shaft.misses(box); },
       [&](std::uint32_t i) {
+        if (i == except) return false;
         const Shape& shape = *impl_->scene.objects[i].shape;
         if (shaft.misses(impl_->bounds[i]) || shape.avoids(both)) return false;
         if (found.count_ == Blockers::kMost || shape.part_count() > kMostParts) return true;
@@ -324,7 +326,10 @@ void RayCaster::occluded(const Blockers& among, std::span<const Segment> segment
       block.set(lane, ray_of(segments[first + std::min(lane, n - 1)]));
     }
     SegmentBlock::Mask mask{};
-    for (std::size_t k = 0; k < among.count_; ++k) {
+    const auto all_blocked = [&] {
+      return std::all_of(mask.begin(), mask.end(), [](std::int64_t lane) { return lane != 0; });
+    };
+    for (std::size_t k = 0; k < among.count_ && !all_blocked(); ++k) {
       impl_->scene.objects[among.objects_[k]].shape->occlude(block, kSegmentEnd, mask);
     }
     for (std::size_t lane = 0; lane < n; ++lane) {

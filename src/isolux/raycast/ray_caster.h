@@ -95,8 +95,10 @@ class RayCaster {
   /// blocked[i] = 1 where segments[i] is occluded, else 0.
   void occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const;
 
-  /// What may stand anywhere between the two boxes.
-  Blockers blockers(const Bounds& from, const Bounds& to) const;
+  /// What may stand anywhere between the two boxes; the object of the index `except`, if any, is
+  /// not looked at.
+  Blockers blockers(const Bounds& from, const Bounds& to,
+                    std::optional<std::uint32_t> except = {}) const;
 
   /// Whether surely nothing stands there, so that no segment from one box to the other is
   /// occluded.
