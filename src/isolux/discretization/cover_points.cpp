@@ -155,22 +155,29 @@ void CoverPoints::grow_from(const ZonePoint& point) {
 
 /// Covers the patch around a point, if light reaches that.
 void CoverPoints::begin_at(const ZonePoint& point) {
-  if (light_.reaches_beside(point, random_) && lit(point)) look_from(point, {largest_on(point)});
+  constexpr double kNear = 0.25;  // sizes: light may get to other places of a patch
+  const auto beside = light_.beside(point, random_);
+  if ((!beside || lit(*beside, kNear)) && lit(point)) look_from(point, {largest_on(point)});
   spawn_all();
 }
 
-/// Whether light reaches the point; places that it does not reach are remembered.
-bool CoverPoints::lit(const ZonePoint& point) {
-  if (light_.sees_light(point, random_)) return true;
-  const double size = largest_on(point);
+/// Whether it is known of a point of the same surface that light does not reach it, no further than
+/// `sizes` times the largest size.
+bool CoverPoints::in_the_dark(const ZonePoint& point, double sizes) const {
   thread_local std::vector<std::uint32_t> ids;
-  dark_grid_.query(point.surface.object, point.position, size, 1, ids);
-  for (const std::uint32_t id : ids) {
-    if (walk_.step(dark_[id], point.position)) return false;
-  }
-  if (light_.reaches(point, random_)) return true;
+  dark_grid_.query(point.surface.object, point.position, sizes * largest_on(point), 1, ids);
+  return std::ranges::any_of(
+      ids, [&](std::uint32_t id) { return walk_.step(dark_[id], point.position).has_value(); });
+}
+
+/// Whether light reaches the point; places that it does not reach are remembered, for as many sizes
+/// around.
+bool CoverPoints::lit(const ZonePoint& point, double sizes) {
+  if (light_.sees_light(point, random_)) return true;
+  if (in_the_dark(point, sizes)) return false;
+  if (light_.is_on_path_of_light(point, random_)) return true;
   dark_grid_.insert(static_cast<std::uint32_t>(dark_.size()), point.surface.object, point.position,
-                    size);
+                    largest_on(point));
   dark_.push_back(point);
   return false;
 }
@@ -234,7 +241,7 @@ void CoverPoints::look_from(const ZonePoint& point, const PointSpacing& most) {
   for (const Ending& ending : around.creases) {
     const double size = around.along(ending.direction);
     if (ending.distance > 1.2 * size) continue;
-    crease_seeds_.push_back({point, ending.direction, ending.distance, size});
+    crease_seeds_.push_back({point, ending.direction, ending.distance, size, ending.last});
   }
   run_creases();
   accept(point, around);

@@ -42,6 +42,7 @@ class CoverPoints {
   struct Ending {  // of the surface, in a direction
     Vec3 direction;
     double distance;  // m; a crease is there, within some 2 % of the size
+    ZonePoint last;   // of the surface before it
   };
   struct Surroundings : PointSpacing {
     double to_crease = std::numeric_limits<double>::infinity();
@@ -52,7 +53,8 @@ class CoverPoints {
     ZonePoint from;
     Vec3 direction;
     double distance;
-    double size;  // m: the spacing in that direction
+    double size;     // m: the spacing in that direction
+    ZonePoint last;  // of the surface, to within some 2 % of the size
   };
   struct CreasePoint {
     ZonePoint point;  // on the crease, or less than the walk's tolerance inside
@@ -70,8 +72,10 @@ class CoverPoints {
   };
   bool turns_at_once(const ZonePoint& point, const ZonePoint& there, double away,
                      const Vec3& d) const;
-  Surroundings look_around(const ZonePoint& point, const Vec3& first, const PointSpacing& most);
-  Ending ending(const ZonePoint& point, const Vec3& d, double near, double far, Rim& rim) const;
+  Surroundings look_around(const ZonePoint& point, const Vec3& first, const PointSpacing& most,
+                           double crease_ahead = -1);
+  Ending ending(const ZonePoint& point, const Vec3& d, double near, double far, double past,
+                double guess, Rim& rim) const;
   void look_along(const ZonePoint& point, Surroundings& around) const;
   void adjoin(const ZonePoint& a, const ZonePoint& b) {
     grid_.adjoin(a.surface.object, b.surface.object);
@@ -87,7 +91,8 @@ class CoverPoints {
   void look_from(const ZonePoint& point, const PointSpacing& most);
   double largest_on(const ZonePoint& point) const { return largest_[point.surface.object]; }
   void spawn(std::uint32_t parent);
-  bool lit(const ZonePoint& point);
+  bool in_the_dark(const ZonePoint& point, double sizes) const;
+  bool lit(const ZonePoint& point, double sizes = 1);
   void accept(const ZonePoint& point, const Surroundings& around);
   void add(const CoverPoint& point, const Surroundings& around);
   void spawn_all();

@@ -39,8 +39,9 @@ Coverage coverage_of(const Triangulation& mesh, const RayCaster& rays, int lines
       rays.all_hits({line.point - line.direction * (1.01 * radius), line.direction}, {}, hits);
       for (const SurfaceHit& hit : hits) {
         const auto point = walk.at(hit);
-        if (!point || !light.reaches(*point, random) || !light.reaches_beside(*point, random))
-          continue;
+        if (!point || !light.reaches(*point, random)) continue;
+        const auto beside = light.beside(*point, random);
+        if (beside && !light.reaches(*beside, random)) continue;
         ++count.hits;
         mesh_rays.all_hits({hit.point + hit.normal * reach, -hit.normal}, {0, 2 * reach}, over);
         count.covered += std::any_of(over.begin(), over.end(), [&](const MeshHit& m) {

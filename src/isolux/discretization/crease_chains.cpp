@@ -215,8 +215,8 @@ void CoverPoints::commit(const std::vector<CreasePoint>& chain, bool closed) {
       same = static_cast<std::uint32_t>(points_.size());
       add(point, {crease.spacing});
       if (crease.corner) {
-        crease_seeds_.push_back(
-            {crease.turn_off_from, crease.turn_off, 0, crease.spacing.longest()});
+        crease_seeds_.push_back({crease.turn_off_from, crease.turn_off, 0, crease.spacing.longest(),
+                                 crease.turn_off_from});
       }
     }
     if (previous != kNone && previous != same) link(previous, same);
@@ -248,6 +248,8 @@ void CoverPoints::look_across(const CreasePoint& crease) {
 }
 
 void CoverPoints::trace(const CreaseSeed& seed) {
+  // Most lead to creases that are traced already, which shows before their course is looked at.
+  if (known(seed.last, tangential(seed.direction, seed.last.normal))) return;
   const double size = seed.size, tolerance = fineness(size);
   const double slack = 0.05 * size + 1e-3 * spacing_;
   const double near = std::max(0.0, seed.distance - slack), far = seed.distance + slack;

@@ -46,13 +46,16 @@ std::optional<Vec3> CoverPoints::outward_at(const ZonePoint& rim, const Vec3& di
   const auto back = walk_.over(rim, rim.position - forward * aside);
   if (!back) return std::nullopt;
   std::array<std::optional<Vec3>, 2> beside;
+  double guess = aside;
   for (int side = 0; side < 2; ++side) {
     const auto start = walk_.step(*back, back->position + left * (side == 0 ? -aside : aside));
     if (!start) continue;
     const Vec3 ahead = tangential(forward, start->normal);
     const double far = 4 * aside;
     if (walk_.step(*start, start->position + ahead * far)) continue;
-    beside[side] = walk_.rim(*start, ahead, 0, far, fineness(size)).point.position;
+    const Rim ends = walk_.rim(*start, ahead, 0, far, fineness(size), guess);
+    beside[side] = ends.point.position;
+    guess = 2 * aside - ends.distance;
   }
   const bool straight = beside[0] && beside[1] &&
                         distance_to_segment(rim.position, *beside[0], *beside[1]) < 0.03 * aside;
@@ -68,11 +71,14 @@ std::optional<Vec3> CoverPoints::outward_at(const ZonePoint& rim, const Vec3& di
 /// The spacing at a point of a crease, seen from a hair inside.
 PointSpacing CoverPoints::spacing_inside(const CreasePoint& crease, double limit) {
   std::optional<ZonePoint> inside;
-  for (double hair = 0.02 * limit; !inside && hair > 1e-4 * limit; hair *= 0.2) {
+  double hair = 0.1 * limit;
+  while (!inside && hair > 5e-4 * limit) {
+    hair *= 0.2;
     inside = walk_.over(crease.point, crease.point.position - crease.outward * hair);
   }
   if (!inside) return {limit};
-  return graded(*inside, look_around(*inside, tangential(crease.outward, inside->normal), {limit}));
+  const Vec3 outward = tangential(crease.outward, inside->normal);
+  return graded(*inside, look_around(*inside, outward, {limit}, hair));
 }
 
 /// The point of the crease a step further on; nothing where it turns away, or something stands in
@@ -88,7 +94,7 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::next_on_crease(const Crease
   if (!ahead) return std::nullopt;
   const Vec3 outward = tangential(from.outward, ahead->normal);
   if (walk_.step(*ahead, ahead->position + outward * (2.2 * aside))) return std::nullopt;
-  const Rim rim = walk_.rim(*ahead, outward, 0, 2.2 * aside, fineness(step));
+  const Rim rim = walk_.rim(*ahead, outward, 0, 2.2 * aside, fineness(step), aside);
   return CreasePoint{rim.point, outward, from.spacing};
 }
 
@@ -110,7 +116,7 @@ std::optional<CoverPoints::CreasePoint> CoverPoints::corner(const CreasePoint& a
     if (!inside) continue;
     const Vec3 ahead = tangential(outward, inside->normal);
     if (walk_.step(*inside, inside->position + ahead * (2 * depth))) continue;
-    const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(across));
+    const Rim rim = walk_.rim(*inside, ahead, 0, 2 * depth, fineness(across), depth);
     if (std::abs(rim.distance - depth) > 0.02 * across) continue;
     const double slant = std::max(0.1, dot(outward, a.outward));
     return CreasePoint{rim.point, ahead * slant, a.spacing, true, b.point, b.outward};

@@ -145,8 +145,7 @@ bool LightReach::sees_light(const SurfacePoint& point, Random& random) const {
   return false;
 }
 
-bool LightReach::reaches(const SurfacePoint& point, Random& random) const {
-  if (sees_light(point, random)) return true;
+bool LightReach::is_on_path_of_light(const SurfacePoint& point, Random& random) const {
   const Place start = above(point.position, point.normal);
   for (int i = 0; i < kPathsBack; ++i) {
     Place place = start;
@@ -162,17 +161,15 @@ bool LightReach::reaches(const SurfacePoint& point, Random& random) const {
   return false;
 }
 
-bool LightReach::reaches_beside(const ZonePoint& point, Random& random) const {
+std::optional<ZonePoint> LightReach::beside(const ZonePoint& point, Random& random) const {
   const Frame frame(point.normal);
   const double far = kAside * diagonal_;
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * std::numbers::pi * random.uniform();
     const Vec3 d = frame.u * std::cos(angle) + frame.v * std::sin(angle);
-    if (const auto other = walk_.step(point, point.position + d * far)) {
-      return reaches(*other, random);
-    }
+    if (auto other = walk_.step(point, point.position + d * far)) return other;
   }
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace isolux

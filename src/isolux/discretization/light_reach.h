@@ -22,13 +22,18 @@ class LightReach {
   /// can tell.
   bool sees_light(const SurfacePoint& point, Random& random) const;
 
-  /// Whether light reaches the point, as far as random paths can tell. Cost: a few rays where it
-  /// does, some hundreds where not.
-  bool reaches(const SurfacePoint& point, Random& random) const;
+  /// Whether a random path of reflections from the point leads to where a light, or a place that
+  /// light reaches, is seen. Cost: some hundreds of rays where none does.
+  bool is_on_path_of_light(const SurfacePoint& point, Random& random) const;
 
-  /// Whether it reaches a point of the same surface close by: surfaces that touch leave a hairline
+  /// Whether light reaches the point, straight or so. Cost: a few rays where it does.
+  bool reaches(const SurfacePoint& point, Random& random) const {
+    return sees_light(point, random) || is_on_path_of_light(point, random);
+  }
+
+  /// A point of the same surface close by, if one is found: surfaces that touch leave a hairline
   /// between them, and a point in there tells nothing of the rest.
-  bool reaches_beside(const ZonePoint& point, Random& random) const;
+  std::optional<ZonePoint> beside(const ZonePoint& point, Random& random) const;
 
  private:
   struct Place {

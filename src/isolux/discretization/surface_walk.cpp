@@ -85,19 +85,29 @@ std::optional<ZonePoint> SurfaceWalk::step(const ZonePoint& from, const Vec3& ta
 }
 
 Rim SurfaceWalk::rim(const ZonePoint& from, const Vec3& direction, double near, double far,
-                     double tolerance) const {
+                     double tolerance, double guess) const {
   Rim rim{from, near};
   if (near > 0) {
     if (const auto start = over(from, from.position + direction * near)) rim.point = *start;
   }
-  while (far - rim.distance > tolerance) {
-    const double middle = 0.5 * (rim.distance + far);
-    if (const auto found = step(from, from.position + direction * middle)) {
-      rim = {*found, middle};
+  const auto runs_on_to = [&](double away) {
+    const auto found = step(from, from.position + direction * away);
+    if (found) {
+      rim = {*found, away};
     } else {
-      far = middle;
+      far = away;
+    }
+    return found.has_value();
+  };
+  if (guess > near && guess < far) {
+    constexpr double kWider = 8;
+    for (double hair = 0.45 * tolerance;; hair *= kWider) {
+      const bool so_far = guess - hair <= rim.distance || runs_on_to(guess - hair);
+      const bool no_further = guess + hair >= far || !runs_on_to(guess + hair);
+      if (so_far && no_further) break;
     }
   }
+  while (far - rim.distance > tolerance) runs_on_to(0.5 * (rim.distance + far));
   return rim;
 }
 

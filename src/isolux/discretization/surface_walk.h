@@ -41,8 +41,9 @@ class SurfaceWalk {
 
   /// Where the surface ends between two distances (m) from `from` in the tangential unit
   /// `direction`: it runs on as far as `near`, and not as far as `far`; to within `tolerance` (m).
-  Rim rim(const ZonePoint& from, const Vec3& direction, double near, double far,
-          double tolerance) const;
+  /// Cheaper where it ends at about the distance `guess` (m), if that lies between.
+  Rim rim(const ZonePoint& from, const Vec3& direction, double near, double far, double tolerance,
+          double guess = -1) const;
 
   double cos_normal_tolerance() const { return cos_tolerance_; }
   double normal_tolerance() const { return tolerance_; }

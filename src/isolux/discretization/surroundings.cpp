@@ -73,17 +73,21 @@ bool CoverPoints::turns_at_once(const ZonePoint& point, const ZonePoint& there, 
 }
 
 /// Whether the surface ends in direction d, where it runs on as far as `near` and not as far as
-/// `far`, and where; `rim`: the last point of the walk, crease or not.
+/// `far`, and where: it does not go on from there by the length `past`, in which it must not turn
+/// by α_n. `guess`: where it may end, if not negative; `rim`: the last point of the walk, crease or
+/// not.
 CoverPoints::Ending CoverPoints::ending(const ZonePoint& point, const Vec3& d, double near,
-                                        double far, Rim& rim) const {
-  rim = walk_.rim(point, d, near, far, far / 64);
+                                        double far, double past, double guess, Rim& rim) const {
+  rim = walk_.rim(point, d, near, far, past / 4, guess);
   const Vec3 on = tangential(d, rim.point.normal);
-  const bool ends = !walk_.step(rim.point, rim.point.position + on * (far / 16));
-  return {d, ends ? rim.distance : std::numeric_limits<double>::infinity()};
+  const bool ends = !walk_.step(rim.point, rim.point.position + on * past);
+  return {d, ends ? rim.distance : std::numeric_limits<double>::infinity(), rim.point};
 }
 
+/// `first`: the tangential unit direction to begin with, in which a crease is `crease_ahead` away
+/// (m), across it, if that is not negative.
 CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const Vec3& first,
-                                                   const PointSpacing& most) {
+                                                   const PointSpacing& most, double crease_ahead) {
   constexpr double kNear = 0.35;
   const double limit = most.size;
   const Vec3 second = cross(point.normal, first);
@@ -117,7 +121,8 @@ CoverPoints::Surroundings CoverPoints::look_around(const ZonePoint& point, const
     }
     if (far == 0) continue;
     Rim rim;
-    const Ending end = ending(point, d, near, far, rim);
+    const double guess = crease_ahead / std::cos(angle);
+    const Ending end = ending(point, d, near, far, far / 16, guess, rim);
     if (rim.distance > 0) see_turn(rim.point, rim.distance, d);
     ends[k] = end.distance;
     if (std::isfinite(end.distance)) around.creases.push_back(end);
@@ -165,7 +170,7 @@ void CoverPoints::look_along(const ZonePoint& point, Surroundings& around) const
     const double far = 1.2 * around.longest();
     if (walk_.step(point, point.position + d * far)) continue;
     Rim rim;
-    const Ending end = ending(point, d, 0, far, rim);
+    const Ending end = ending(point, d, 0, far, std::min(far / 16, around.size / 2), -1, rim);
     if (std::isfinite(end.distance)) around.creases.push_back(end);
   }
 }
