@@ -97,8 +97,8 @@ class MeshLookup::Impl {
     return place_in(*best, weights);
   }
 
-  std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal) const {
-    return nearest_.place(point, normal);
+  std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal, double reach) const {
+    return nearest_.place(point, normal, reach);
   }
 
  private:
@@ -323,9 +323,10 @@ std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& nor
   return impl_->covering(point, normal);
 }
 
-std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal) const {
+std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal,
+                                           double reach) const {
   if (auto found = impl_->covering(point, normal)) return found;
-  return impl_->nearest(point, normal);
+  return impl_->nearest(point, normal, reach);
 }
 
 }  // namespace isolux

@@ -217,13 +217,25 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
   }
 }
 
-Landing HemisphereGather::landing_of(const Ray& ray, const std::optional<SurfaceHit>& hit) const {
+/// Where the mesh has the light of what a ray met. Where no triangle lies, vertices near by have
+/// it, unless the ray was much shorter than the way to them: a crevice where surfaces come closer
+/// than the mesh can follow, and one side is as dark as the other.
+std::optional<MeshPlace> HemisphereGather::place_of(const Receiver& receiver,
+                                                    const SurfaceHit& hit) const {
+  constexpr double kMuchFurther = 4;
+  if (auto place = lookup_.place(hit.point, hit.normal, kMuchFurther * hit.t)) return place;
+  if (auto own = lookup_.covering(receiver.point, receiver.normal)) return own;
+  return lookup_.place(hit.point, hit.normal);
+}
+
+Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,
+                                     const std::optional<SurfaceHit>& hit) const {
   const Landing outside{{static_cast<std::uint32_t>(surfaces_.size() - 1), {}}};
   const Landing black{{outside.site.surface - 1, {}}};
   if (!hit) return outside;
   if (dot(hit->normal, ray.direction) >= 0) return black;
   const std::uint32_t surface = 3 * hit->surface.object;
-  const std::optional<MeshPlace> place = lookup_.place(hit->point, hit->normal);
+  const std::optional<MeshPlace> place = place_of(receiver, *hit);
   if (!place) return hit->back ? black : Landing{{surface + 2, {}}};
   Landing landing{{surface + hit->back, place->vertices}};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -268,7 +280,7 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   rays_.nearest(rays, hits);
   row.rays.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    row.rays.push_back(landing_of(rays[i], hits[i]));
+    row.rays.push_back(landing_of(receiver, rays[i], hits[i]));
   }
 }
 

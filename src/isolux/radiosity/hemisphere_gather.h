@@ -73,8 +73,10 @@ class HemisphereGather {
   SiteLight light_of(const Site& site, std::span<const Rgb> irradiance) const;
 
  private:
-  /// Where a ray lands, by what it meets first.
-  Landing landing_of(const Ray& ray, const std::optional<SurfaceHit>& hit) const;
+  /// Where a ray from the receiver lands, by what it meets first.
+  Landing landing_of(const Receiver& receiver, const Ray& ray,
+                     const std::optional<SurfaceHit>& hit) const;
+  std::optional<MeshPlace> place_of(const Receiver& receiver, const SurfaceHit& hit) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
                           std::span<const Rgb> irradiance);
   void divide(const Receiver& receiver, const Frame& frame, double cosine, double sine,
