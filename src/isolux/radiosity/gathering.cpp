@@ -164,9 +164,8 @@ void Gathering::estimate() {
 void Gathering::finish() {
   // Told to stop before the first sweep: all but the direct light is unshot.
   if (!(area() > 0)) settle_energy(std::vector<Rgb>(state_.sent.size()));
-  const std::vector<double> interpolation =
-      around_vertices(living_edges(mesh_),
-                      [&](const Edge& e) { return std::abs(direct_error(e)) + indirect_error(e); });
+  const std::vector<double> interpolation = around_vertices(
+      living_edges(mesh_), [&](const Edge& e) { return direct_bend(e) + indirect_error(e); });
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     Vertex& vertex = mesh_.vertex(v);
     vertex.irradiance = irradiance(v);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "isolux/discretization/split_points.h"
@@ -18,6 +19,23 @@ constexpr double kHairline = 0.1;
 // A round of splits takes on the worst edges, which make up this part of the estimated error
 // squared: the bulk criterion of Dörfler (1996).
 constexpr double kBulk = 0.7;
+
+// Edges of the smallest area, all together this part of the mesh's, are looked at one in so many,
+// as long as those that are not make up no more than this part of the error squared.
+constexpr double kLittle = 0.02;
+constexpr std::size_t kEvery = 8;
+constexpr double kUnseen = 0.05;
+
+// σ where nobody looked.
+constexpr float kUnknown = std::numeric_limits<float>::infinity();
+
+/// How many of the edges, from the first, have no more than this area together.
+std::size_t edges_within(std::span<const Edge> edges, double area) {
+  double sum = 0;
+  std::size_t n = 0;
+  while (n < edges.size() && (sum += edges[n].area) <= area) ++n;
+  return n;
+}
 
 }  // namespace
 
@@ -54,8 +72,9 @@ bool Gathering::too_open(double deviation, double scale) const {
 }
 
 /// Looks closer at E_d of vertices where a shadow's edge on a light was left too open for a
-/// stricter level.
+/// stricter level; lets all edges be looked at again that were not.
 void Gathering::look_closer() {
+  std::erase_if(state_.middles, [](const auto& m) { return m.second.deviation == kUnknown; });
   std::vector<VertexId> open;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     if (too_open(state_.light[v].direct_deviation, scale(v))) open.push_back(v);
@@ -147,7 +166,8 @@ void Gathering::refine_direct() {
   }
 }
 
-/// E_d in the middles of edges that were not looked at yet.
+/// E_d in the middles of edges that were not looked at yet; of the smallest, as many as it takes to
+/// know that the others do not matter.
 void Gathering::sample(std::span<const Edge> edges) {
   if (state_.middles.size() > 3 * edges.size()) {
     std::unordered_map<std::uint64_t, MiddleLight> living;
@@ -161,11 +181,46 @@ void Gathering::sample(std::span<const Edge> edges) {
   for (const Edge& e : edges) {
     if (!state_.middles.contains(e.key())) fresh.push_back(e);
   }
-  const std::vector<Middle> middles = middles_of(fresh);
-  if (stopped_) return;
+  std::sort(fresh.begin(), fresh.end(), [](const Edge& e, const Edge& f) {
+    return std::pair(e.area, e.key()) < std::pair(f.area, f.key());
+  });
+  // Of the smallest, every so many first: they tell how many need no look.
+  const bool many = fresh.size() > edges.size() / kEvery;
+  const std::size_t little = many ? edges_within(fresh, kLittle * 3 * area()) : 0;
+  std::vector<Edge> first, rest;
   for (std::size_t i = 0; i < fresh.size(); ++i) {
-    state_.middles[fresh[i].key()] = packed(middles[i], error_at(fresh[i], middles[i]));
+    if (i >= little || i % kEvery == 0) first.push_back(fresh[i]);
   }
+  look_at(first);
+  const double bearable = kUnseen * square(kDirectShare * state_.level) * area();
+  double unseen = 0;
+  for (std::size_t i = 0; i < little && !stopped_; ++i) {
+    if (i % kEvery == 0) {
+      unseen += double(kEvery) * cost(fresh[i], direct_error(fresh[i]));
+    } else if (unseen > bearable) {
+      rest.push_back(fresh[i]);
+    } else {
+      state_.middles[fresh[i].key()] = MiddleLight{{}, kUnknown, 0};
+    }
+  }
+  look_at(rest);
+}
+
+void Gathering::look_at(std::span<const Edge> edges) {
+  const std::vector<Middle> middles = middles_of(edges);
+  for (std::size_t i = 0; i < edges.size() && !stopped_; ++i) {
+    state_.middles[edges[i].key()] = packed(middles[i], error_at(edges[i], middles[i]));
+  }
+}
+
+/// How far interpolation of E_d is off in the middle of an edge, lx; as a rule, if nobody looked.
+double Gathering::direct_bend(const Edge& edge) const {
+  constexpr double kUsual = 0.25;  // of the difference between the ends
+  const auto known = state_.middles.find(edge.key());
+  if (known != state_.middles.end() && known->second.deviation < kUnknown) {
+    return std::abs(known->second.error);
+  }
+  return kUsual * std::abs(luminance(state_.light[edge.a].direct - state_.light[edge.b].direct));
 }
 
 /// Whether an edge is too short to be split. Along steps of light so narrow, halving the error
@@ -179,9 +234,8 @@ bool Gathering::hairline(const Edge& edge) const {
 double Gathering::direct_mean_square(std::span<const Edge> edges) {
   double sum = 0, narrow = 0, bias = 0;
   for (const Edge& e : edges) {
-    const double error = direct_error(e);
-    (hairline(e) ? narrow : sum) += cost(e, error);
-    bias += error * e.area / 3;
+    (hairline(e) ? narrow : sum) += cost(e, direct_error(e));
+    bias += direct_error(e) * e.area / 3;
   }
   state_.bias = bias / area();
   state_.narrow_mean_square = narrow / area();

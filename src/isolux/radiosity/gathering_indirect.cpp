@@ -175,7 +175,17 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
   return suspect;
 }
 
-double Gathering::most_bend(VertexId v) const { return kMostBend * state_.level * scale(v); }
+double Gathering::most_bend(VertexId v) const {
+  return kMostBend * leniency(v) * state_.level * scale(v);
+}
+
+/// How much more may be wrong at a vertex whose triangles are too small to stand out.
+double Gathering::leniency(VertexId v) const {
+  constexpr double kSmall = 0.01;  // of the diagonal
+  constexpr double kMost = 3;
+  const double size = std::sqrt(area_around(v));
+  return size > 0 ? std::clamp(std::sqrt(kSmall * diagonal_ / size), 1.0, kMost) : kMost;
+}
 
 /// Whether an error e in the middle of an edge is worth a split even where the area is small.
 bool Gathering::stands_out(const Edge& edge, double e) const {

@@ -72,6 +72,8 @@ class Gathering {
   static MiddleLight packed(const Middle& middle, double error);
   bool too_open(double deviation, double scale) const;
   void sample(std::span<const Edge> edges);
+  void look_at(std::span<const Edge> edges);
+  double direct_bend(const Edge& edge) const;
   bool hairline(const Edge& edge) const;
   double direct_mean_square(std::span<const Edge> edges);
   void split_worst(std::span<const Edge> edges, double total, double target);
@@ -131,6 +133,7 @@ class Gathering {
   double bend_beside(VertexId v) const;
   double surprise(VertexId v) const;
   double most_bend(VertexId v) const;
+  double leniency(VertexId v) const;
   bool stands_out(const Edge& edge, double e) const;
   double indirect_error(const Edge& e) const;
   double indirect_mean_square() const;

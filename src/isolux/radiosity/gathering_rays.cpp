@@ -91,7 +91,7 @@ std::vector<int> Gathering::wanted_grids() {
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
       const double e = std::max(luminance(irradiance(v)), kDim * mean_irradiance());
-      const double most = square(kMostNoise * state_.level * e);
+      const double most = square(kMostNoise * leniency(v) * state_.level * e);
       const double least = std::pow(doubt[v] / most, 1 / kFall);
       const double side = std::ceil(std::sqrt(std::max(fineness * worth(v), least)));
       grids[v] = static_cast<int>(
