@@ -97,8 +97,8 @@ class MeshLookup::Impl {
     return place_in(*best, weights);
   }
 
-  std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal, double reach) const {
-    return nearest_.place(point, normal, reach);
+  std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal) const {
+    return nearest_.place(point, normal);
   }
 
  private:
@@ -323,10 +323,9 @@ std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& nor
   return impl_->covering(point, normal);
 }
 
-std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal,
-                                           double reach) const {
+std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal) const {
   if (auto found = impl_->covering(point, normal)) return found;
-  return impl_->nearest(point, normal, reach);
+  return impl_->nearest(point, normal);
 }
 
 }  // namespace isolux

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -27,10 +26,8 @@ class MeshLookup {
 
   /// As covering(), and where no triangle lies, the three nearest vertices that face as `normal`
   /// does, each weighing one over the square of its distance, so that no light is lost there.
-  /// Nothing where no vertex within δ and `reach` (m) faces that way, within 60° if possible, else
-  /// within 90°.
-  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal,
-                                 double reach = std::numeric_limits<double>::infinity()) const;
+  /// Nothing where no vertex within δ faces that way, within 60° if possible, else within 90°.
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
 
  private:
   class Impl;

@@ -22,13 +22,16 @@ struct Places {
 };
 
 /// The three nearest of those that face as `normal` does, to within the angle of this cosine, and
-/// stand no further away than `reach` (m).
+/// stand no further away than the mesh's longest edge.
 class Facing {
  public:
   using DistanceType = double;
 
-  Facing(const Places& places, const Vec3& normal, double cosine, double reach)
-      : places_(places), normal_(normal), cosine_(cosine), reach_(reach * reach) {}
+  Facing(const Places& places, const Vec3& normal, double cosine)
+      : places_(places),
+        normal_(normal),
+        cosine_(cosine),
+        reach_(places.mesh.rules().max_edge * places.mesh.rules().max_edge) {}
 
   std::size_t size() const { return count_; }
   bool full() const { return count_ == nearest_.size(); }
@@ -75,11 +78,11 @@ class NearestVertices::Tree {
     tree_.buildIndex();
   }
 
-  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal, double reach) const {
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const {
     constexpr double kWithin60 = 0.5, kWithin90 = 1e-6;
     const std::array<double, 3> at{point.x, point.y, point.z};
     for (const double cosine : {kWithin60, kWithin90}) {
-      Facing found(places_, normal, cosine, std::min(reach, places_.mesh.rules().max_edge));
+      Facing found(places_, normal, cosine);
       tree_.findNeighbors(found, at.data(), {});
       if (found.size() > 0) return found.place();
     }
@@ -96,9 +99,8 @@ class NearestVertices::Tree {
 NearestVertices::NearestVertices(const Triangulation& mesh) : tree_(std::make_unique<Tree>(mesh)) {}
 NearestVertices::~NearestVertices() = default;
 
-std::optional<MeshPlace> NearestVertices::place(const Vec3& point, const Vec3& normal,
-                                                double reach) const {
-  return tree_->place(point, normal, reach);
+std::optional<MeshPlace> NearestVertices::place(const Vec3& point, const Vec3& normal) const {
+  return tree_->place(point, normal);
 }
 
 }  // namespace isolux

@@ -17,9 +17,9 @@ class NearestVertices {
   NearestVertices& operator=(const NearestVertices&) = delete;
 
   /// The three nearest vertices of living triangles that face as `normal` does, each weighing one
-  /// over the square of its distance. Nothing where none within δ and `reach` (m) faces that way,
-  /// within 60° if possible, else within 90°. May be asked from many threads at once.
-  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal, double reach) const;
+  /// over the square of its distance. Nothing where none within δ faces that way, within 60° if
+  /// possible, else within 90°: there it is dark. May be asked from many threads at once.
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
 
  private:
   class Tree;

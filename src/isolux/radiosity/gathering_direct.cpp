@@ -82,6 +82,18 @@ void Gathering::look_closer() {
   light_directly(open);
 }
 
+/// Whether something lies close over the point in the middle of an edge, but not over its ends: it
+/// is on a sheet that goes on under the one that is seen, as where a board's edge is a tube.
+bool Gathering::hidden(const SurfacePoint& middle, const Edge& edge) const {
+  constexpr double kClose = 0.25;  // of the edge
+  const Vertex &a = mesh_.vertex(edge.a), &b = mesh_.vertex(edge.b);
+  const double far = kClose * distance(a.position, b.position), near = 8 * rays_.epsilon();
+  const auto covered = [&](const SurfacePoint& p) {
+    return rays_.occluded({p.position + p.normal * near, p.position + p.normal * far});
+  };
+  return far > near && covered(middle) && !covered(a) && !covered(b);
+}
+
 /// The surface over the middles of `chosen` edges, and E_d there, if it is not known well enough,
 /// until told to stop.
 void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
@@ -89,7 +101,9 @@ void Gathering::light_middles(std::span<const Edge> edges, std::span<const std::
   parallel_for(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Edge& edge = edges[chosen[i]];
-      middles[chosen[i]].point = point_over_edge(mesh_, rays_, edge.a, edge.b);
+      auto& point = middles[chosen[i]].point;
+      point = point_over_edge(mesh_, rays_, edge.a, edge.b);
+      if (point && hidden(*point, edge)) point.reset();
     }
   });
   std::vector<Receiver> receivers;

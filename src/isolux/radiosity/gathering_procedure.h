@@ -66,6 +66,7 @@ class Gathering {
   void light_newborn();
   void look_closer();
   std::vector<Middle> middles_of(std::span<const Edge> edges);
+  bool hidden(const SurfacePoint& middle, const Edge& edge) const;
   void light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
                      std::span<Middle> middles);
   double error_at(const Edge& edge, const Middle& middle) const;

@@ -125,7 +125,7 @@ Gathered mean_with_error(const Row<Ray>& row, const Radiosity& radiosity) {
 HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
                                    std::span<const std::uint8_t> separate,
                                    std::span<const Rgb> irradiance)
-    : rays_(rays), lookup_(mesh) {
+    : rays_(rays), mesh_(mesh), lookup_(mesh) {
   const Scene& scene = rays.scene();
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Rgb reflectance = scene.material_of(i).reflectance;
@@ -218,14 +218,20 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
 }
 
 /// Where the mesh has the light of what a ray met. Where no triangle lies, vertices near by have
-/// it, unless the ray was much shorter than the way to them: a crevice where surfaces come closer
-/// than the mesh can follow, and one side is as dark as the other.
+/// it, but in holes of a surface that the ray was much too short for, as where bodies touch:
+/// surfaces come closer there than the mesh can follow, and one is as dark as the other.
 std::optional<MeshPlace> HemisphereGather::place_of(const Receiver& receiver,
                                                     const SurfaceHit& hit) const {
   constexpr double kMuchFurther = 4;
-  if (auto place = lookup_.place(hit.point, hit.normal, kMuchFurther * hit.t)) return place;
-  if (auto own = lookup_.covering(receiver.point, receiver.normal)) return own;
-  return lookup_.place(hit.point, hit.normal);
+  if (auto place = lookup_.covering(hit.point, hit.normal)) return place;
+  const std::optional<MeshPlace> near = lookup_.place(hit.point, hit.normal);
+  if (!near) return near;
+  const Vertex& nearest = mesh_.vertex(near->vertices[0]);
+  const bool hole = nearest.surface.object == hit.surface.object &&
+                    distance(nearest.position, hit.point) > kMuchFurther * hit.t;
+  if (!hole) return near;
+  const auto own = lookup_.covering(receiver.point, receiver.normal);
+  return own ? own : near;
 }
 
 Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,

@@ -90,6 +90,7 @@ class HemisphereGather {
   };
 
   const RayCaster& rays_;
+  const Triangulation& mesh_;
   MeshLookup lookup_;
   std::vector<Surface> surfaces_;  // by Site::surface
   BrightPlaces bright_;
