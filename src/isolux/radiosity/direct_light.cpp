@@ -16,7 +16,7 @@ namespace {
 using Index = std::uint32_t;
 
 /// How many neighbours share shafts and doubts.
-constexpr std::size_t kGroup = 16;
+constexpr std::size_t kGroup = 8;
 
 /// The receivers in an order in which those that face alike and stand close together are
 /// neighbours.

@@ -43,9 +43,12 @@ void Gathering::run() {
     refine_direct();
     gather_all(kTrialGrid);
     transfer();
-    refine_indirect();
-    gather_all(HemisphereGather::kFinestGrid);
-    transfer();
+    // A rough level is there to find its way by; its own estimate would be too.
+    if (state_.level <= options_.tolerance) {
+      refine_indirect();
+      gather_all(HemisphereGather::kFinestGrid);
+      transfer();
+    }
     estimate();
     if (stopped_ || !next_level() || full()) break;
   }
@@ -73,13 +76,13 @@ void Gathering::first_solution() {
 bool Gathering::next_level() {
   constexpr int kMostTries = 6;
   constexpr double kTighter = 0.7, kBarely = 0.95;
-  state_.statistics.converged = state_.statistics.error <= options_.tolerance;
-  if (state_.statistics.converged) return false;
   if (state_.level > options_.tolerance) {
     state_.level = std::max(options_.tolerance, state_.level / kLevelRatio);
     look_closer();
     return true;
   }
+  state_.statistics.converged = state_.statistics.error <= options_.tolerance;
+  if (state_.statistics.converged) return false;
   state_.level *=
       std::clamp(kBarely * options_.tolerance / state_.statistics.error, kTighter, kBarely);
   return ++state_.tries < kMostTries;

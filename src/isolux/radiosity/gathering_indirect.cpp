@@ -14,9 +14,9 @@ constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain 
 constexpr double kVerticesPart = 0.5;
 constexpr double kEdgesPart = 0.5;
 
-// However small the area is where interpolation is off by more than this many tolerances of the
-// what it is held against: vertices gather there, and edges are split as long as they are longer
-// than this part of the longest.
+// However small the area is where interpolation is off by more than this many tolerances of what it
+// is held against (small triangles: up to thrice as many), vertices gather there, and edges are
+// split as long as they are longer than this part of the longest.
 constexpr double kMostBend = 1.5;
 constexpr double kFinest = 1.0 / 64;
 
@@ -112,7 +112,7 @@ void Gathering::refine_indirect() {
     if (open <= edges.size() / kFew) break;
     gather_at_doubtful(doubtful);
     split_suspects(suspect, target / double(edges.size()));
-    transfer();
+    transfer(true);
   }
   state_.indirect_mean_square = indirect_mean_square();
 }

@@ -114,7 +114,7 @@ class Gathering {
   void interpolate_indirect(VertexId v);
   void foresee_bends(VertexId first);
   const std::vector<VertexId>& order();
-  void transfer();
+  void transfer(bool rough = false);
   void balance_indirect();
   void settle_energy(std::span<const Rgb> old);
   void add_ambient(std::span<const Rgb> old);

@@ -7,7 +7,9 @@
 namespace isolux {
 namespace {
 
-constexpr double kUnshotShare = 0.02;  // of the tolerance: light not yet passed on
+// Of the tolerance: light not yet passed on, while it is found out who gathers, and then.
+constexpr double kRoughUnshotShare = 0.1;
+constexpr double kUnshotShare = 0.02;
 
 }  // namespace
 
@@ -105,10 +107,10 @@ void Gathering::find_excess() {
 }
 
 /// Passes the light on along the links, sweep by sweep, until little is unshot.
-void Gathering::transfer() {
+void Gathering::transfer(bool rough) {
   find_excess();
   constexpr int kMostSweeps = 10'000;
-  const double enough = kUnshotShare * state_.level;
+  const double enough = (rough ? kRoughUnshotShare : kUnshotShare) * state_.level;
   std::vector<VertexId> gatherers;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     if (state_.light[v].gathers) gatherers.push_back(v);

@@ -30,7 +30,7 @@ enum class Distribution {
 struct Options {
   Method method = Method::gathering;
   double tolerance = 0.01;  ///< gathering: root mean square of the error of illuminance over all
-                            ///< surfaces, relative to its mean
+                            ///< surfaces, relative to its mean or, where that is more, itself
   std::uint64_t max_triangles = 0;  ///< gathering: refine no further than this many, 0: no bound
 
   Rules rules;                   ///< δ, Δ, α_n

@@ -29,7 +29,9 @@ struct Statistics {
   double escaped_flux = 0;      ///< lm: left the scene, or fell on black backs
   double imbalance = 0;         ///< lm: emitted − absorbed − escaped − unshot
   double mean_irradiance = 0;   ///< lx, over all surfaces
-  double error = 0;             ///< estimated root mean square, relative to mean_irradiance
+  /// Estimated root mean square over all surfaces, of each place's error relative to its irradiance
+  /// or to mean_irradiance, whichever is more.
+  double error = 0;
   double discretization_error = 0;  ///< its part from interpolation
   double sampling_error = 0;        ///< its part from rays
   double narrow_error = 0;          ///< not in it: steps of light too narrow for the mesh
