@@ -85,7 +85,7 @@ void Gathering::look_closer() {
 /// Whether something lies close over the point in the middle of an edge, but not over its ends: it
 /// is on a sheet that goes on under the one that is seen, as where a board's edge is a tube.
 bool Gathering::hidden(const SurfacePoint& middle, const Edge& edge) const {
-  constexpr double kClose = 0.25;  // of the edge
+  constexpr double kClose = 0.1;  // of the edge
   const Vertex &a = mesh_.vertex(edge.a), &b = mesh_.vertex(edge.b);
   const double far = kClose * distance(a.position, b.position), near = 8 * rays_.epsilon();
   const auto covered = [&](const SurfacePoint& p) {
