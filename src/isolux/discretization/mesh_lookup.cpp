@@ -323,9 +323,13 @@ std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& nor
   return impl_->covering(point, normal);
 }
 
-std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal) const {
-  if (auto found = impl_->covering(point, normal)) return found;
+std::optional<MeshPlace> MeshLookup::nearest(const Vec3& point, const Vec3& normal) const {
   return impl_->nearest(point, normal);
+}
+
+std::optional<MeshPlace> MeshLookup::place(const Vec3& point, const Vec3& normal) const {
+  if (auto found = covering(point, normal)) return found;
+  return nearest(point, normal);
 }
 
 }  // namespace isolux

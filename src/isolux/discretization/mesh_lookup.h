@@ -24,9 +24,12 @@ class MeshLookup {
   /// within 60°; nothing where no triangle does. May be asked from many threads at once.
   std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const;
 
-  /// As covering(), and where no triangle lies, the three nearest vertices that face as `normal`
-  /// does, each weighing one over the square of its distance, so that no light is lost there.
-  /// Nothing where no vertex within δ faces that way, within 60° if possible, else within 90°.
+  /// The three nearest vertices that face as `normal` does, each weighing one over the square of
+  /// its distance. Nothing where no vertex within δ faces that way, within 60° if possible, else
+  /// within 90°.
+  std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal) const;
+
+  /// covering(), and where no triangle lies, nearest(), so that no light is lost there.
   std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
 
  private:

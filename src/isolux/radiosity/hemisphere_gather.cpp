@@ -224,7 +224,7 @@ std::optional<MeshPlace> HemisphereGather::place_of(const Receiver& receiver,
                                                     const SurfaceHit& hit) const {
   constexpr double kMuchFurther = 4;
   if (auto place = lookup_.covering(hit.point, hit.normal)) return place;
-  const std::optional<MeshPlace> near = lookup_.place(hit.point, hit.normal);
+  const std::optional<MeshPlace> near = lookup_.nearest(hit.point, hit.normal);
   if (!near) return near;
   const Vertex& nearest = mesh_.vertex(near->vertices[0]);
   const bool hole = nearest.surface.object == hit.surface.object &&
