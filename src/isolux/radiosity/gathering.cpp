@@ -43,14 +43,15 @@ void Gathering::run() {
     refine_direct();
     gather_all(kTrialGrid);
     transfer();
-    // A rough level is there to find its way by; its own estimate would be too.
-    if (state_.level <= options_.tolerance) {
+    if (on_the_way()) {
+      state_.indirect_mean_square = indirect_mean_square();
+    } else {
       refine_indirect();
       gather_all(HemisphereGather::kFinestGrid);
       transfer();
     }
     estimate();
-    if (stopped_ || !next_level() || full()) break;
+    if (stopped_ || !next_level()) break;
   }
   finish();
 }
@@ -72,17 +73,20 @@ void Gathering::first_solution() {
   estimate();
 }
 
+/// Whether a stricter level follows in any case: then this one only finds the way.
+bool Gathering::on_the_way() const { return state_.level > options_.tolerance && !full(); }
+
 /// Goes on to a stricter level; false where the goal is reached, or out of reach.
 bool Gathering::next_level() {
   constexpr int kMostTries = 6;
   constexpr double kTighter = 0.7, kBarely = 0.95;
-  if (state_.level > options_.tolerance) {
+  if (on_the_way()) {
     state_.level = std::max(options_.tolerance, state_.level / kLevelRatio);
     look_closer();
     return true;
   }
   state_.statistics.converged = state_.statistics.error <= options_.tolerance;
-  if (state_.statistics.converged) return false;
+  if (state_.statistics.converged || full()) return false;
   state_.level *=
       std::clamp(kBarely * options_.tolerance / state_.statistics.error, kTighter, kBarely);
   return ++state_.tries < kMostTries;

@@ -47,6 +47,7 @@ class Gathering {
 
   // The procedure
   void first_solution();
+  bool on_the_way() const;
   bool next_level();
   bool full() const;
   bool keep_going();

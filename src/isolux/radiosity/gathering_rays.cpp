@@ -72,7 +72,8 @@ std::vector<double> Gathering::areas_of_influence() {
 
 /// The grids of rays, in cells a side, that keep σ within its share of the tolerance over all
 /// surfaces. For so many rays as it takes, one more anywhere takes as much off Σ A σ² (Neyman
-/// 1934); but nowhere is σ more than so many tolerances of E, or of what counts as dim.
+/// 1934); but nowhere is σ more than so many tolerances of E, or of what counts as dim, times the
+/// leniency there.
 std::vector<int> Gathering::wanted_grids() {
   constexpr double kMostNoise = 2;
   constexpr double kDim = 0.25;  // of the mean irradiance

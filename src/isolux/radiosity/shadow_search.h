@@ -100,7 +100,7 @@ class ShadowSearch {
   void search_bows(int halvings);
   double cut(std::size_t k, const LatticeTriangle& triangle, std::size_t line, Index from) const;
   Bow chord_of(Index k, Index t) const;
-  /// Whether nothing stands in the ways of `segments_`, into `blocked_`.
+  /// Whether something stands in the ways of `segments_`, into `blocked_`.
   void trace();
   std::uint8_t* open(std::size_t k) { return open_.data() + k * light_->points.size(); }
   const std::uint8_t* open(std::size_t k) const { return open_.data() + k * light_->points.size(); }
