@@ -139,14 +139,29 @@ double Gathering::variance_of(VertexId v) const {
   return square(light.direct_deviation) + square(light.indirect_deviation);
 }
 
+/// Of what is interpolated over a triangle, on average and relative to what errors are held
+/// against: (Σ σ² + Σ cov) / 6. Chances of vertices that gather by themselves are independent; of
+/// others they are taken to be as alike as can be.
+double Gathering::mean_variance(const Triangle& triangle) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const VertexId v = triangle.vertices[k], w = triangle.vertices[(k + 1) % 3];
+    sum += variance_of(v) / square(scale(v));
+    if (state_.light[v].gathers && state_.light[w].gathers) continue;
+    sum += state_.light[v].indirect_deviation / scale(v) * state_.light[w].indirect_deviation /
+           scale(w);
+  }
+  return sum / 6;
+}
+
 /// The errors of all vertices, and of the whole.
 void Gathering::estimate() {
   double variance = 0, reflectance = 0, escaped = 0, total = 0;
   for (const Triangle& triangle : mesh_.triangles()) {
     if (!triangle.alive) continue;
+    variance += mean_variance(triangle) * triangle.area;
     for (VertexId v : triangle.vertices) {
       const double part = triangle.area / 3;
-      variance += variance_of(v) / square(scale(v)) * part;
       reflectance += luminance(mesh_.vertex(v).reflectance) * part;
       escaped += state_.light[v].escaped * part;
       total += part;
@@ -171,8 +186,9 @@ void Gathering::estimate() {
 void Gathering::finish() {
   // Told to stop before the first sweep: all but the direct light is unshot.
   if (!(area() > 0)) settle_energy(std::vector<Rgb>(state_.sent.size()));
-  const std::vector<double> interpolation = around_vertices(
-      living_edges(mesh_), [&](const Edge& e) { return direct_bend(e) + indirect_error(e); });
+  const std::vector<double> interpolation =
+      around_vertices(living_edges(mesh_),
+                      [&](const Edge& e) { return direct_bend(e) + std::abs(indirect_error(e)); });
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     Vertex& vertex = mesh_.vertex(v);
     vertex.irradiance = irradiance(v);

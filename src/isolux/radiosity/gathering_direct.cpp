@@ -246,26 +246,29 @@ bool Gathering::hairline(const Edge& edge) const {
 }
 
 double Gathering::direct_mean_square(std::span<const Edge> edges) {
-  double sum = 0, narrow = 0, bias = 0;
+  double narrow = 0, bias = 0;
   for (const Edge& e : edges) {
-    (hairline(e) ? narrow : sum) += cost(e, direct_error(e));
+    if (hairline(e)) narrow += cost(e, direct_error(e));
     bias += direct_error(e) * e.area / 3;
   }
   state_.bias = bias / area();
   state_.narrow_mean_square = narrow / area();
-  return sum / area();
+  return mean_square([&](const Edge& e) { return hairline(e) ? 0 : direct_error(e) / scale(e); });
 }
 
 /// Splits the edges that the bulk criterion names.
 void Gathering::split_worst(std::span<const Edge> edges, double total, double target) {
   std::vector<std::pair<double, std::uint32_t>> ranked;
+  double whole = 0;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const double share = cost(edges[i], direct_error(edges[i])) / area();
-    if (share > 0 && !hairline(edges[i])) ranked.emplace_back(-share, i);
+    const double share = cost(edges[i], direct_error(edges[i]));
+    if (!(share > 0) || hairline(edges[i])) continue;
+    ranked.emplace_back(-share, i);
+    whole += share;
   }
   std::sort(ranked.begin(), ranked.end());
   // Splits leave about a tenth of an edge's cost behind; there is no need to go below the target.
-  const double enough = std::min(kBulk * total, 1.1 * (total - target));
+  const double enough = std::min(kBulk, 1.1 * (1 - target / total)) * whole;
   double taken = 0;
   std::vector<Edge> worst;
   for (const auto& [minus_share, i] : ranked) {

@@ -12,7 +12,7 @@ constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what
 // edges may.
 constexpr double kVerticesPart = 0.5;
-constexpr double kEdgesPart = 0.5;
+constexpr double kEdgesPart = 0.7;
 
 // However small the area is where interpolation is off by more than this many tolerances of what it
 // is held against (small triangles: up to thrice as many), vertices gather there, and edges are
@@ -163,7 +163,7 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
     const Edge& e = edges[i];
     if (!state_.light[e.a].gathers || !state_.light[e.b].gathers) continue;
     if (state_.indirect_error.contains(e.key())) continue;
-    ranked.emplace_back(cost(e, state_.bend_scale * usual_bend(e.a, e.b)), i);
+    ranked.emplace_back(cost(e, state_.edge_scale * usual_bend(e.a, e.b)), i);
   }
   std::sort(ranked.begin(), ranked.end(), std::greater<>());
   const std::size_t n = worth_taking<std::uint32_t>(ranked, budget);
@@ -199,26 +199,24 @@ void Gathering::gather_at_doubtful(std::span<const VertexId> doubtful) {
   struct Before {
     VertexId vertex;
     Rgb indirect;
-    double variance, area;
+    double variance, rule, area;
   };
   std::vector<Before> by_rule;
-  double foreseen = 0, found = 0;
   for (const VertexId v : doubtful) {
     const double rule = rule_bend(v);
     if (rule < state_.light[v].own_bend) continue;  // it is a glimpse that doubts
     const VertexLight& light = state_.light[v];
-    by_rule.push_back({v, light.indirect, square(light.indirect_deviation), area_around(v)});
-    foreseen += square(rule) * by_rule.back().area;
+    by_rule.push_back({v, light.indirect, square(light.indirect_deviation), rule, area_around(v)});
   }
   trace_as_wanted(doubtful, wanted_grids(), kTrialGrid);
-  double noise = 0;
-  for (const auto& [v, before, variance, area] : by_rule) {
+  std::vector<Finding> findings;
+  for (const auto& [v, before, variance, rule, area] : by_rule) {
     const VertexLight& light = state_.light[v];
     const double chance = variance + square(light.indirect_deviation);
-    found += (square(luminance(light.indirect - before)) - chance) * area;
-    noise += square(chance * area);
+    const double found = square(luminance(light.indirect - before)) - chance;
+    findings.push_back({square(rule) * area, found * area, chance * area});
   }
-  learn_bend(foreseen, found, noise, by_rule.size());
+  learn(state_.bend_scale, std::move(findings));
 }
 
 /// Of the triangles at a vertex, m².
@@ -228,17 +226,26 @@ double Gathering::area_around(VertexId v) const {
   return area;
 }
 
-/// Sets right what is foreseen of interpolation's errors, from sums of their squares over n places,
-/// by area. `noise`: the sum of the squares of the variances by chance, which are off `found`.
-void Gathering::learn_bend(double foreseen, double found, double noise, std::size_t n) {
+/// Sets a rule right by what was found. What was not looked at is more like those of which less was
+/// foreseen: they tell, one half of all that was.
+void Gathering::learn(double& rule_scale, std::vector<Finding> findings) {
   constexpr std::size_t kFewest = 16;
   constexpr double kMargin = 1.3;
-  if (n < kFewest || !(foreseen > 0)) return;
+  if (findings.size() < kFewest) return;
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.foreseen < b.foreseen; });
+  double all = 0, foreseen = 0, found = 0, noise = 0;
+  for (const Finding& f : findings) all += f.foreseen;
+  for (const Finding& f : findings) {
+    if (foreseen > all / 2) break;
+    foreseen += f.foreseen, found += f.found, noise += square(f.noise);
+  }
+  if (!(foreseen > 0)) return;
   // The square of something normal has twice the square of its variance as its own.
   const double at_most = std::max(0.0, found) + std::sqrt(2 * noise);
   // Half of the way, since what is looked at from one round to the next is not alike.
   const double factor = std::sqrt(kMargin * std::sqrt(at_most / foreseen));
-  state_.bend_scale = std::clamp(state_.bend_scale * std::clamp(factor, 0.7, 1.4), 0.1, 1.5);
+  rule_scale = std::clamp(rule_scale * std::clamp(factor, 0.7, 1.4), 0.1, 1.5);
 }
 
 /// The vertices whose rays landed on edges that are split since, where this matters: the mesh knows
@@ -297,10 +304,9 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   std::vector<Gathered> gathered(suspect.size());
   std::vector<std::size_t> costly;
   std::vector<Edge> to_split;
-  double foreseen = 0, found = 0, chance = 0;
+  std::vector<Finding> findings;
   for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
     const Edge& edge = suspect[i];
-    foreseen += square(state_.bend_scale * usual_bend(edge.a, edge.b)) * edge.area;
     if (rows[i].links.empty()) {
       state_.indirect_error[edge.key()] = 0;
       continue;
@@ -310,15 +316,16 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     const double e = luminance((a.indirect + b.indirect) / 2 - gathered[i].irradiance);
     const double noise = square(gathered[i].error) +
                          (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
-    const double clean = std::sqrt(std::max(0.0, e * e - noise));
-    state_.indirect_error[edge.key()] = static_cast<float>(std::copysign(clean, e));
-    found += (e * e - noise) * edge.area;
-    chance += square(noise * edge.area);
-    if (cost(edge, clean) <= allowed && !stands_out(edge, clean)) continue;
+    const double rule = square(state_.edge_scale * usual_bend(edge.a, edge.b));
+    // What is likely: the rule's, as far as noise hides what was found.
+    const double likely = rule > 0 ? e * rule / (rule + noise) : 0;
+    state_.indirect_error[edge.key()] = static_cast<float>(likely);
+    findings.push_back({rule * edge.area, (e * e - noise) * edge.area, noise * edge.area});
+    if (cost(edge, likely) <= allowed && !stands_out(edge, likely)) continue;
     costly.push_back(i);
     to_split.push_back(edge);
   }
-  learn_bend(foreseen, found, chance, suspect.size());
+  learn(state_.edge_scale, std::move(findings));
 
   const std::vector<Edge> longer = longer_sides(to_split);
   split(longer, middles_of(longer));
@@ -335,21 +342,19 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   }
 }
 
-/// e of E_i in the middle of an edge: as it was found, or as a rule; where E_i of an end is
-/// interpolated already, what that costs.
+/// e of E_i in the middle of an edge: as it was found; or as a rule, and then of either sign; where
+/// E_i of an end is interpolated already, what that costs.
 double Gathering::indirect_error(const Edge& e) const {
   const auto known = state_.indirect_error.find(e.key());
-  if (known != state_.indirect_error.end()) return std::abs(known->second);
+  if (known != state_.indirect_error.end()) return known->second;
   const VertexLight &a = state_.light[e.a], &b = state_.light[e.b];
-  if (a.gathers && b.gathers) return state_.bend_scale * usual_bend(e.a, e.b);
+  if (a.gathers && b.gathers) return state_.edge_scale * usual_bend(e.a, e.b);
   return (a.bend + b.bend) / 2;
 }
 
 /// What interpolation of E_i costs, relative.
 double Gathering::indirect_mean_square() const {
-  double sum = 0;
-  for (const Edge& e : living_edges(mesh_)) sum += cost(e, indirect_error(e));
-  return sum / area();
+  return mean_square([&](const Edge& e) { return indirect_error(e) / scale(e); });
 }
 
 }  // namespace isolux

@@ -45,6 +45,24 @@ class Gathering {
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
   static constexpr double kMeanSquare = 16.0 / 45;
 
+  /// The mean over all surfaces of the square of what interpolation is off by, for the errors
+  /// error(edge), relative to what they are held against, in the middles of edges.
+  template <typename Error>
+  double mean_square(Error&& error) const {
+    double sum = 0;
+    for (const Triangle& triangle : mesh_.triangles()) {
+      if (!triangle.alive) continue;
+      const auto& [a, b, c] = triangle.vertices;
+      const auto between = [&](VertexId v, VertexId w) {
+        return error(v < w ? Edge{v, w, 0} : Edge{w, v, 0});
+      };
+      const double e = between(a, b), f = between(b, c), g = between(c, a);
+      const double squares = e * e + f * f + g * g;
+      sum += kMeanSquare / 2 * (squares + e * f + f * g + g * e) * triangle.area;
+    }
+    return sum / area();
+  }
+
   // The procedure
   void first_solution();
   bool on_the_way() const;
@@ -127,7 +145,12 @@ class Gathering {
   std::vector<Edge> suspect_edges(std::span<const Edge> edges, double budget) const;
   void gather_at_doubtful(std::span<const VertexId> doubtful);
   void split_suspects(std::span<const Edge> suspect, double allowed);
-  void learn_bend(double foreseen, double found, double noise, std::size_t n);
+  struct Finding {    // of a place that was looked at
+    double foreseen;  // by the rule, as it is scaled, squared, m² · lx²
+    double found;  // the square of the error that was found, less the noise that it has, m² · lx²
+    double noise;  // of `found`, m² · lx²
+  };
+  static void learn(double& rule_scale, std::vector<Finding> findings);
   double difference(VertexId v, VertexId w) const;
   double usual_bend(VertexId v, VertexId w) const;
   double area_around(VertexId v) const;
@@ -145,6 +168,7 @@ class Gathering {
   double area() const { return state_.statistics.mesh_area; }
   double mean_irradiance() const { return state_.statistics.mean_irradiance; }
   double variance_of(VertexId v) const;
+  double mean_variance(const Triangle& triangle) const;
 
   static double square(double x) { return x * x; }
   static constexpr std::uint64_t square_of(int n) {

@@ -9,6 +9,8 @@ namespace isolux {
 namespace {
 
 constexpr double kSamplingShare = 0.7;  // of the tolerance: σ of E_i
+// ∫ φ² / ∫ φ of the function φ, linear over triangles, that is 1 at a vertex and 0 at all others.
+constexpr double kHat = 0.5;
 
 // Stands for the number of a site that is not listed yet.
 constexpr std::uint32_t kFresh = std::numeric_limits<std::uint32_t>::max();
@@ -87,7 +89,7 @@ std::vector<int> Gathering::wanted_grids() {
   for (VertexId v = 0; v < areas.size(); ++v) {
     if (state_.light[v].gathers) sum += worth(v);
   }
-  const double allowed = square(kSamplingShare * state_.level) * area();
+  const double allowed = square(kSamplingShare * state_.level) * area() / kHat;
   const double fineness = std::pow(sum / allowed, 1 / kFall);
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {

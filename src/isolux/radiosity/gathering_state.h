@@ -68,8 +68,10 @@ struct GatheringState {
   int tries = 0;     // levels below the tolerance asked for
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, relative
   double narrow_mean_square = 0;  // of interpolating E_d along edges too short to be split
-  double bend_scale = 0.7;        // the rule for errors of interpolating E_i is right times this
-  double bias = 0;                // mean of MiddleLight::error, lx
+  // The rules for errors of interpolating E_i are right times this: at vertices among others, and
+  // between gathering ones.
+  double bend_scale = 0.7, edge_scale = 0.7;
+  double bias = 0;        // mean of MiddleLight::error, lx
   Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
   Statistics statistics;
 };

@@ -217,21 +217,35 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
   }
 }
 
+/// Whether the vertices that have the light of what a ray met are much further from it than its
+/// origin is: in a hole of its mesh, or in a triangle between faces that are turned to each other.
+bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& hit,
+                                   const MeshPlace& place, bool covered) const {
+  constexpr double kMuchFurther = 4;
+  constexpr double kFacing = -0.7;  // cosine
+  const Vertex& nearest = mesh_.vertex(place.vertices[0]);
+  if (!covered) {
+    return nearest.surface.object == hit.surface.object &&
+           distance(nearest.position, hit.point) > kMuchFurther * hit.t;
+  }
+  if (kMuchFurther * hit.t > mesh_.rules().max_edge) return false;
+  if (dot(receiver.normal, hit.normal) > kFacing) return false;
+  return std::all_of(place.vertices.begin(), place.vertices.end(), [&](VertexId v) {
+    return distance(mesh_.vertex(v).position, hit.point) > kMuchFurther * hit.t;
+  });
+}
+
 /// Where the mesh has the light of what a ray met. Where no triangle lies, vertices near by have
-/// it, but in holes of a surface that the ray was much too short for, as where bodies touch:
-/// surfaces come closer there than the mesh can follow, and one is as dark as the other.
+/// it; but where surfaces come closer than the mesh can follow, as where bodies touch, one is as
+/// dark as the other.
 std::optional<MeshPlace> HemisphereGather::place_of(const Receiver& receiver,
                                                     const SurfaceHit& hit) const {
-  constexpr double kMuchFurther = 4;
-  if (auto place = lookup_.covering(hit.point, hit.normal)) return place;
-  const std::optional<MeshPlace> near = lookup_.nearest(hit.point, hit.normal);
-  if (!near) return near;
-  const Vertex& nearest = mesh_.vertex(near->vertices[0]);
-  const bool hole = nearest.surface.object == hit.surface.object &&
-                    distance(nearest.position, hit.point) > kMuchFurther * hit.t;
-  if (!hole) return near;
+  std::optional<MeshPlace> place = lookup_.covering(hit.point, hit.normal);
+  const bool covered = place.has_value();
+  if (!covered) place = lookup_.nearest(hit.point, hit.normal);
+  if (!place || !much_closer(receiver, hit, *place, covered)) return place;
   const auto own = lookup_.covering(receiver.point, receiver.normal);
-  return own ? own : near;
+  return own ? own : place;
 }
 
 Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,

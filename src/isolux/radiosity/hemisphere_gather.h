@@ -77,6 +77,8 @@ class HemisphereGather {
   Landing landing_of(const Receiver& receiver, const Ray& ray,
                      const std::optional<SurfaceHit>& hit) const;
   std::optional<MeshPlace> place_of(const Receiver& receiver, const SurfaceHit& hit) const;
+  bool much_closer(const Receiver& receiver, const SurfaceHit& hit, const MeshPlace& place,
+                   bool covered) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
                           std::span<const Rgb> irradiance);
   void divide(const Receiver& receiver, const Frame& frame, double cosine, double sine,

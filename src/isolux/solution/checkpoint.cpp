@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "isolux checkpoint 4";
+constexpr const char* kFormat = "isolux checkpoint 5";
 
 [[noreturn]] void damaged(const char* key) {
   throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
@@ -74,6 +74,7 @@ void for_each_scalar(State& state, F&& f) {
   f("indirect_mean_square", state.indirect_mean_square);
   f("narrow_mean_square", state.narrow_mean_square);
   f("bend_scale", state.bend_scale);
+  f("edge_scale", state.edge_scale);
   f("bias", state.bias);
   f("balance_r", state.balance.r);
   f("balance_g", state.balance.g);
