@@ -154,6 +154,30 @@ Found many_rows(const HemisphereGather& gather, const Receiver& receiver, int gr
           std::sqrt(variances / kRuns), rays / kRuns};
 }
 
+TEST(HemisphereGather, FacesCloserThanTheMeshAreAsDarkAsOneAnother) {
+  // The floor's vertices stand at the rim, in the light; the ceiling's are in the dark. Where the
+  // ceiling is so low that no vertex of the floor is near what it sees, nor is light.
+  const auto under_a_ceiling_at = [](double height) {
+    const Scene scene = scene_of(fmt::format(
+        "materials: {{m: {{reflectance: 0.5}}}}\nobjects:\n"
+        "  - {{shape: {{box: {{lower: [0, 0, 0], upper: [1, 1, {}], inward: true}}}}, material: "
+        "m}}\n",
+        height));
+    const RayCaster rays(scene);
+    const Triangulation mesh = box_room_mesh({1, 1, height}, 1, gray(0.5));
+    std::vector<Rgb> irradiance;
+    for (const Vertex& v : mesh.vertices()) irradiance.push_back(gray(v.normal.z > 0.5 ? 2 : 0));
+    const HemisphereGather gather(rays, mesh, std::vector<std::uint8_t>{0});
+    Row<Landing> row;
+    gather.trace({{0.45, 0.4, height}, {0, 0, -1}}, 40, 1, 0, row);
+    return gather.gather(row, irradiance).g;
+  };
+  EXPECT_LT(under_a_ceiling_at(0.01), 0.05);
+  // From the ceiling of a cube the floor is seen as it is: the form factors of the four rectangles
+  // into which the receiver's foot cuts it.
+  EXPECT_NEAR(under_a_ceiling_at(1), 0.2361, 0.003);
+}
+
 TEST(HemisphereGather, CellsTowardsSmallBrightPlacesAreDivided) {
   // Under a ceiling with two small spots, forty times as bright as the rest.
   const Scene scene = box_room(1, 0.6, 0);
