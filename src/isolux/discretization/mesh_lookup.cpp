@@ -70,31 +70,49 @@ class MeshLookup::Impl {
   }
 
   std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const {
-    const Vec3 from_middle = point - middle_;
-    const Vec3f p = narrow(from_middle), n = narrow(normal);
-    const Facet* best = nullptr;
-    std::array<float, 3> weights{};
-    float best_score = kOutside;
-    for (int level = 0; level < levels_; ++level) {
-      for (const std::uint32_t index : find(voxel_of(from_middle, level))) {
-        const Facet& facet = facets_[index];
-        const Vec3f d = p - facet.corner;
-        const float w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
-        const float outside = std::max({-w1, -w2, w1 + w2 - 1});
-        if (outside > kOutside || dot(facet.normal, n) < kFacing) continue;
-        const float height = std::abs(dot(facet.normal, d));
-        if (height > facet.reach) continue;
-        // The nearest sheet; in it the triangle whose sides are kept best.
-        const float score = std::max(outside, 0.0f) + height / facet.reach * kHeight;
-        if (best && score >= best_score) continue;
-        best = &facet;
-        best_score = score;
-        weights = {1 - w1 - w2, w1, w2};
-        if (outside <= 0 && score < kSure) return place_in(facet, weights);
+    Search search(point - middle_, normal);
+    for (int level = 0; level < levels_ && !search.sure; ++level) {
+      look_among(find(voxel_of(search.from_middle, level)), search);
+    }
+    return search.place();
+  }
+
+  /// Grid by grid for several points together, so that they wait for memory together.
+  void covering(std::span<const std::optional<SurfaceHit>> hits,
+                std::span<std::optional<MeshPlace>> places) const {
+    constexpr std::size_t kTogether = 16;
+    thread_local std::vector<Search> searches;
+    std::array<VoxelKey, kTogether> keys;
+    for (std::size_t first = 0; first < hits.size(); first += kTogether) {
+      const std::size_t n = std::min(kTogether, hits.size() - first);
+      searches.clear();
+      for (std::size_t i = first; i < first + n; ++i) {
+        if (hits[i]) searches.emplace_back(hits[i]->point - middle_, hits[i]->normal);
+      }
+      for (int level = 0; level < levels_; ++level) {
+        for (std::size_t k = 0; k < searches.size(); ++k) {
+          if (searches[k].sure) continue;
+          keys[k] = voxel_of(searches[k].from_middle, level);
+          __builtin_prefetch(&table_[hash(keys[k]) & (table_.size() - 1)]);
+        }
+        for (std::size_t k = 0; k < searches.size(); ++k) {
+          if (searches[k].sure) continue;
+          searches[k].listed = find(keys[k]);
+          __builtin_prefetch(searches[k].listed.data());
+        }
+        for (const Search& search : searches) {
+          if (search.sure) continue;
+          for (const std::uint32_t index : search.listed) __builtin_prefetch(&facets_[index]);
+        }
+        for (Search& search : searches) {
+          if (!search.sure) look_among(search.listed, search);
+        }
+      }
+      auto search = searches.begin();
+      for (std::size_t i = first; i < first + n; ++i) {
+        places[i] = hits[i] ? search++->place() : std::nullopt;
       }
     }
-    if (!best) return std::nullopt;
-    return place_in(*best, weights);
   }
 
   std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal) const {
@@ -102,14 +120,49 @@ class MeshLookup::Impl {
   }
 
  private:
-  static MeshPlace place_in(const Facet& facet, const std::array<float, 3>& weights) {
-    MeshPlace place{facet.vertices, {}};
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum += place.weights[k] = std::max(static_cast<double>(weights[k]), 0.0);
+  /// The best facet so far over a point, counted from the middle of the mesh.
+  struct Search {
+    Search(const Vec3& point, const Vec3& facing)
+        : from_middle(point), p(narrow(point)), n(narrow(facing)) {}
+
+    Vec3 from_middle;
+    Vec3f p, n;
+    std::span<const std::uint32_t> listed = {};  // facets to look at next
+    const Facet* best = nullptr;
+    float score = kOutside;
+    std::array<float, 3> weights = {};
+    bool sure = false;
+
+    std::optional<MeshPlace> place() const {
+      if (!best) return std::nullopt;
+      MeshPlace place{best->vertices, {}};
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum += place.weights[k] = std::max(static_cast<double>(weights[k]), 0.0);
+      }
+      for (double& w : place.weights) w /= sum;
+      return place;
     }
-    for (double& w : place.weights) w /= sum;
-    return place;
+  };
+
+  void look_among(std::span<const std::uint32_t> listed, Search& search) const {
+    for (const std::uint32_t index : listed) {
+      const Facet& facet = facets_[index];
+      const Vec3f d = search.p - facet.corner;
+      const float w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
+      const float outside = std::max({-w1, -w2, w1 + w2 - 1});
+      if (outside > kOutside || dot(facet.normal, search.n) < kFacing) continue;
+      const float height = std::abs(dot(facet.normal, d));
+      if (height > facet.reach) continue;
+      // The nearest sheet; in it the triangle whose sides are kept best.
+      const float score = std::max(outside, 0.0f) + height / facet.reach * kHeight;
+      if (search.best && score >= search.score) continue;
+      search.best = &facet;
+      search.score = score;
+      search.weights = {1 - w1 - w2, w1, w2};
+      search.sure = outside <= 0 && score < kSure;
+      if (search.sure) return;
+    }
   }
 
   /// The voxel of a coordinate counted in voxels, within 2⁴⁰ of them: the next lower whole number,
@@ -321,6 +374,11 @@ MeshLookup::~MeshLookup() = default;
 
 std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& normal) const {
   return impl_->covering(point, normal);
+}
+
+void MeshLookup::covering(std::span<const std::optional<SurfaceHit>> hits,
+                          std::span<std::optional<MeshPlace>> places) const {
+  impl_->covering(hits, places);
 }
 
 std::optional<MeshPlace> MeshLookup::nearest(const Vec3& point, const Vec3& normal) const {

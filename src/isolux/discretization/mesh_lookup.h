@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "isolux/discretization/interpolation.h"
 
@@ -23,6 +24,11 @@ class MeshLookup {
   /// The place in the triangle that lies over `point`, close by, and faces as `normal` does to
   /// within 60°; nothing where no triangle does. May be asked from many threads at once.
   std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const;
+
+  /// The same where rays met the surface, faster for many than one by one: places[i] is that of
+  /// hits[i], nothing where that is nothing.
+  void covering(std::span<const std::optional<SurfaceHit>> hits,
+                std::span<std::optional<MeshPlace>> places) const;
 
   /// The three nearest vertices that face as `normal` does, each weighing one over the square of
   /// its distance. Nothing where no vertex within δ faces that way, within 60° if possible, else

@@ -235,27 +235,29 @@ bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& h
   });
 }
 
-/// Where the mesh has the light of what a ray met. Where no triangle lies, vertices near by have
-/// it; but where surfaces come closer than the mesh can follow, as where bodies touch, one is as
-/// dark as the other.
-std::optional<MeshPlace> HemisphereGather::place_of(const Receiver& receiver,
-                                                    const SurfaceHit& hit) const {
-  std::optional<MeshPlace> place = lookup_.covering(hit.point, hit.normal);
-  const bool covered = place.has_value();
-  if (!covered) place = lookup_.nearest(hit.point, hit.normal);
+/// Where the mesh has the light of what a ray met, under a triangle if `covering`. Where no
+/// triangle lies, vertices near by have it; but where surfaces come closer than the mesh can
+/// follow, as where bodies touch, one is as dark as the other.
+std::optional<MeshPlace> HemisphereGather::place_of(
+    const Receiver& receiver, const SurfaceHit& hit,
+    const std::optional<MeshPlace>& covering) const {
+  const bool covered = covering.has_value();
+  const std::optional<MeshPlace> place =
+      covered ? covering : lookup_.nearest(hit.point, hit.normal);
   if (!place || !much_closer(receiver, hit, *place, covered)) return place;
   const auto own = lookup_.covering(receiver.point, receiver.normal);
   return own ? own : place;
 }
 
 Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,
-                                     const std::optional<SurfaceHit>& hit) const {
+                                     const std::optional<SurfaceHit>& hit,
+                                     const std::optional<MeshPlace>& covering) const {
   const Landing outside{{static_cast<std::uint32_t>(surfaces_.size() - 1), {}}};
   const Landing black{{outside.site.surface - 1, {}}};
   if (!hit) return outside;
   if (dot(hit->normal, ray.direction) >= 0) return black;
   const std::uint32_t surface = 3 * hit->surface.object;
-  const std::optional<MeshPlace> place = place_of(receiver, *hit);
+  const std::optional<MeshPlace> place = place_of(receiver, *hit, covering);
   if (!place) return hit->back ? black : Landing{{surface + 2, {}}};
   Landing landing{{surface + hit->back, place->vertices}};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -298,9 +300,12 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   thread_local std::vector<std::optional<SurfaceHit>> hits;
   hits.resize(rays.size());
   rays_.nearest(rays, hits);
+  thread_local std::vector<std::optional<MeshPlace>> covering;
+  covering.resize(rays.size());
+  lookup_.covering(hits, covering);
   row.rays.clear();
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    row.rays.push_back(landing_of(receiver, rays[i], hits[i]));
+    row.rays.push_back(landing_of(receiver, rays[i], hits[i], covering[i]));
   }
 }
 

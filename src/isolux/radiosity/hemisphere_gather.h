@@ -73,10 +73,11 @@ class HemisphereGather {
   SiteLight light_of(const Site& site, std::span<const Rgb> irradiance) const;
 
  private:
-  /// Where a ray from the receiver lands, by what it meets first.
-  Landing landing_of(const Receiver& receiver, const Ray& ray,
-                     const std::optional<SurfaceHit>& hit) const;
-  std::optional<MeshPlace> place_of(const Receiver& receiver, const SurfaceHit& hit) const;
+  /// Where a ray from the receiver lands, by what it meets first, and the triangle over that.
+  Landing landing_of(const Receiver& receiver, const Ray& ray, const std::optional<SurfaceHit>& hit,
+                     const std::optional<MeshPlace>& covering) const;
+  std::optional<MeshPlace> place_of(const Receiver& receiver, const SurfaceHit& hit,
+                                    const std::optional<MeshPlace>& covering) const;
   bool much_closer(const Receiver& receiver, const SurfaceHit& hit, const MeshPlace& place,
                    bool covered) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
