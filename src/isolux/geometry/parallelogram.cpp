@@ -1,6 +1,7 @@
 #include "isolux/geometry/parallelogram.h"
 
 #include "isolux/core/error.h"
+#include "isolux/core/vectorize.h"
 #include "isolux/geometry/require.h"
 #include "isolux/geometry/shape_description.h"
 #include "isolux/geometry/tessellation.h"
@@ -29,12 +30,8 @@ Bounds Parallelogram::bounds() const {
 }
 
 std::optional<PlaneHit> Parallelogram::hit(const Ray& ray) const {
-  constexpr double kSlack = 1e-13;  // rounding at an edge shared with another shape
   const auto h = intersect_plane(ray, corner_, normal_);
-  if (!h) return std::nullopt;
-  const double a = dot(dual_u_, h->point - corner_), b = dot(dual_v_, h->point - corner_);
-  if (a < -kSlack || a > 1 + kSlack || b < -kSlack || b > 1 + kSlack) return std::nullopt;
-  return h;
+  return h && holds(h->point) ? h : std::nullopt;
 }
 
 void Parallelogram::intersect(const Ray& ray, Hits& hits) const {
@@ -44,6 +41,20 @@ void Parallelogram::intersect(const Ray& ray, Hits& hits) const {
 bool Parallelogram::occludes(const Ray& ray, double t_min, double t_max) const {
   const auto h = hit(ray);
   return h && h->t > t_min && h->t < t_max;
+}
+
+ISOLUX_VECTORIZE
+void Parallelogram::occlude_by(const Parallelogram& shape, const SegmentBlock& segments,
+                               double t_max, SegmentBlock::Mask& blocked) {
+  for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+    const PlaneCrossing at = cross_plane(segments.ray(i), shape.corner_, shape.normal_);
+    blocked[i] |= at.there & (at.t > 0) & (at.t < t_max) & shape.holds(at.point);
+  }
+}
+
+void Parallelogram::occlude(const SegmentBlock& segments, double t_max,
+                            SegmentBlock::Mask& blocked) const {
+  occlude_by(*this, segments, t_max, blocked);
 }
 
 std::optional<double> Parallelogram::area() const { return length(cross(u_, v_)); }

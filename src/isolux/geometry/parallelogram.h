@@ -13,6 +13,8 @@ class Parallelogram final : public Shape {
   Bounds bounds() const override;
   void intersect(const Ray& ray, Hits& hits) const override;
   bool occludes(const Ray& ray, double t_min, double t_max) const override;
+  void occlude(const SegmentBlock& segments, double t_max,
+               SegmentBlock::Mask& blocked) const override;
   bool solid() const override { return false; }
   bool contains(const Vec3&) const override { return false; }
   std::optional<double> area() const override;
@@ -22,6 +24,14 @@ class Parallelogram final : public Shape {
 
  private:
   std::optional<PlaneHit> hit(const Ray& ray) const;
+  /// Whether a point of the plane lies within.
+  bool holds(const Vec3& point) const {
+    constexpr double kSlack = 1e-13;  // rounding at an edge shared with another shape
+    const double a = dot(dual_u_, point - corner_), b = dot(dual_v_, point - corner_);
+    return (a >= -kSlack) & (a <= 1 + kSlack) & (b >= -kSlack) & (b <= 1 + kSlack);
+  }
+  static void occlude_by(const Parallelogram& shape, const SegmentBlock& segments, double t_max,
+                         SegmentBlock::Mask& blocked);
 
   Vec3 corner_, u_, v_;
   Vec3 normal_;
