@@ -24,7 +24,7 @@ TEST(BrightPlaces, ConesHoldAllThatIsTurnedToTheReceiver) {
     const Vec3 normal =
         normalized({random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5});
     const double fine = 0.02 + 0.2 * random.uniform();
-    places.seen_from(point, normal, fine, cones);
+    places.seen_from(point, normal, 0, fine, cones);
     for (TriangleId id = 0; id < radiosity.size(); ++id) {
       if (radiosity[id] <= 4) continue;
       const Triangle& triangle = mesh.triangle(id);
@@ -54,11 +54,11 @@ TEST(BrightPlaces, NothingIsSeenFromBehindNorBelowTheHorizon) {
   }
   const BrightPlaces places(mesh, radiosity, 4);
   std::vector<BrightPlaces::Cone> cones;
-  places.seen_from({0.5, 0.5, 0}, {0, 0, 1}, 0.05, cones);
+  places.seen_from({0.5, 0.5, 0}, {0, 0, 1}, 0, 0.05, cones);
   EXPECT_FALSE(cones.empty());
-  places.seen_from({0.5, 0.5, 0}, {0, 0, -1}, 0.05, cones);
+  places.seen_from({0.5, 0.5, 0}, {0, 0, -1}, 0, 0.05, cones);
   EXPECT_TRUE(cones.empty());
-  places.seen_from({0.5, 0.5, 3}, {0, 0, -1}, 0.05, cones);
+  places.seen_from({0.5, 0.5, 3}, {0, 0, -1}, 0, 0.05, cones);
   EXPECT_TRUE(cones.empty());
 }
 

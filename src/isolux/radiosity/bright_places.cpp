@@ -64,7 +64,7 @@ void BrightPlaces::add(std::span<Part> parts) {
   add(parts.subspan(parts.size() / 2));
 }
 
-void BrightPlaces::seen_from(const Vec3& point, const Vec3& normal, double fine,
+void BrightPlaces::seen_from(const Vec3& point, const Vec3& normal, double least, double fine,
                              std::vector<Cone>& cones) const {
   cones.clear();
   if (nodes_.empty()) return;
@@ -74,6 +74,7 @@ void BrightPlaces::seen_from(const Vec3& point, const Vec3& normal, double fine,
   while (count > 0) {
     const std::uint32_t at = open[--count];
     const Node& node = nodes_[at];
+    if (node.radiosity <= least) continue;
     const Vec3 towards = node.center - point;
     if (dot(towards, normal) <= -node.radius) continue;  // below the horizon
     const double away = length(towards);

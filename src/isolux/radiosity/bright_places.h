@@ -27,10 +27,10 @@ class BrightPlaces {
 
   bool empty() const { return nodes_.empty(); }
 
-  /// Cones that hold all bright triangles whose front is turned to the receiver, each with a chord
-  /// of at most `fine` where that is possible; what is nearer than its own size is left out. They
-  /// replace what is in `cones`.
-  void seen_from(const Vec3& point, const Vec3& normal, double fine,
+  /// Cones that hold all bright triangles of a radiosity over `least` (lm/m²) whose front is turned
+  /// to the receiver, each with a chord of at most `fine` where that is possible; what is nearer
+  /// than its own size is left out. They replace what is in `cones`.
+  void seen_from(const Vec3& point, const Vec3& normal, double least, double fine,
                  std::vector<Cone>& cones) const;
 
  private:

@@ -22,6 +22,8 @@ struct Point2 {
   double x, y;
 };
 
+constexpr double square(double x) { return x * x; }
+
 constexpr double kEighth = std::numbers::pi / 4;
 
 /// The square's point on the disk: rings of the square become rings of the disk, areas keep their
@@ -184,9 +186,11 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
   if (bright_.empty()) return;
   thread_local std::vector<BrightPlaces::Cone> cones;
   const double half_a_cell = 1.0 / row.grid;
-  bright_.seen_from(receiver.point, receiver.normal, half_a_cell / kMostStretch, cones);
+  // A cell of radiosity b is divided into b / unit, if that is more than a few.
+  const double unit = kMostOfAll * square(kUsualGrid) * expected_at(receiver);
+  bright_.seen_from(receiver.point, receiver.normal, square(kFewestParts) * unit,
+                    half_a_cell / kMostStretch, cones);
   if (cones.empty()) return;
-  const double expected = expected_at(receiver);
   thread_local std::vector<double> brightest;  // by cell, lm/m²
   brightest.assign(row.cells(), 0);
   for (const BrightPlaces::Cone& cone : cones) {
@@ -204,9 +208,7 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
       }
     }
   }
-  const auto parts = [&](double b) {
-    return std::min(std::sqrt(b / (kMostOfAll * expected)) / kUsualGrid, kMostParts);
-  };
+  const auto parts = [&](double b) { return std::min(std::sqrt(b / unit), kMostParts); };
   double sum = 0;
   for (const double b : brightest) sum += parts(b) * parts(b);
   const double scale = std::min(1.0, std::sqrt(kMostRays * double(row.cells()) / sum));
