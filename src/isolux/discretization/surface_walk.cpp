@@ -48,7 +48,7 @@ std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& ta
       hits, [&](const SurfaceHit& hit) { return dot(hit.normal, from.normal) < cos_tolerance_; });
   if (hits.empty()) return std::nullopt;
   const auto height = [&](const SurfaceHit& hit) { return std::abs(hit.t - reach); };
-  std::ranges::stable_sort(hits, {}, height);
+  if (hits.size() > 1) std::ranges::stable_sort(hits, {}, height);
   // Another sheet may lie nearer to the tangent plane, but hidden, as behind a hollow one. Nor does
   // the surface go on where it would have to rise more than it has turned.
   const auto goes_on = [&](const SurfaceHit& hit) {

@@ -185,7 +185,10 @@ void Gathering::estimate() {
 /// What goes with the solution.
 void Gathering::finish() {
   // Told to stop before the first sweep: all but the direct light is unshot.
-  if (!(area() > 0)) settle_energy(std::vector<Rgb>(state_.sent.size()));
+  if (!(area() > 0)) {
+    share_out();
+    settle_energy(std::vector<Rgb>(state_.sent.size()));
+  }
   const std::vector<double> interpolation =
       around_vertices(living_edges(mesh_),
                       [&](const Edge& e) { return direct_bend(e) + std::abs(indirect_error(e)); });

@@ -171,11 +171,13 @@ void Gathering::refine_direct() {
     const std::vector<Edge> edges = living_edges(mesh_);
     sample(edges);
     const double target = square(kDirectShare * state_.level);
-    const double total = direct_mean_square(edges);
+    std::vector<double> errors;
+    for (const Edge& e : edges) errors.push_back(direct_error(e));
+    const double total = direct_mean_square(edges, errors);
     state_.direct_mean_square = total;
     if (stopped_ || total <= target || full()) return;
     const std::size_t before = mesh_.vertices().size();
-    split_worst(edges, total, target);
+    split_worst(edges, errors, total, target);
     if (mesh_.vertices().size() == before) return;
   }
 }
@@ -245,11 +247,12 @@ bool Gathering::hairline(const Edge& edge) const {
   return distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) < shortest;
 }
 
-double Gathering::direct_mean_square(std::span<const Edge> edges) {
+double Gathering::direct_mean_square(std::span<const Edge> edges, std::span<const double> errors) {
   double narrow = 0, bias = 0;
-  for (const Edge& e : edges) {
-    if (hairline(e)) narrow += cost(e, direct_error(e));
-    bias += direct_error(e) * e.area / 3;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge& e = edges[i];
+    if (hairline(e)) narrow += cost(e, errors[i]);
+    bias += errors[i] * e.area / 3;
   }
   state_.bias = bias / area();
   state_.narrow_mean_square = narrow / area();
@@ -257,11 +260,12 @@ double Gathering::direct_mean_square(std::span<const Edge> edges) {
 }
 
 /// Splits the edges that the bulk criterion names.
-void Gathering::split_worst(std::span<const Edge> edges, double total, double target) {
+void Gathering::split_worst(std::span<const Edge> edges, std::span<const double> errors,
+                            double total, double target) {
   std::vector<std::pair<double, std::uint32_t>> ranked;
   double whole = 0;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const double share = cost(edges[i], direct_error(edges[i]));
+    const double share = cost(edges[i], errors[i]);
     if (!(share > 0) || hairline(edges[i])) continue;
     ranked.emplace_back(-share, i);
     whole += share;

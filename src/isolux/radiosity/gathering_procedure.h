@@ -95,8 +95,9 @@ class Gathering {
   void look_at(std::span<const Edge> edges);
   double direct_bend(const Edge& edge) const;
   bool hairline(const Edge& edge) const;
-  double direct_mean_square(std::span<const Edge> edges);
-  void split_worst(std::span<const Edge> edges, double total, double target);
+  double direct_mean_square(std::span<const Edge> edges, std::span<const double> errors);
+  void split_worst(std::span<const Edge> edges, std::span<const double> errors, double total,
+                   double target);
   void split_all(std::span<const Edge> edges);
   std::vector<Edge> longer_sides(std::span<const Edge> edges) const;
   void split(std::span<const Edge> edges, std::span<const Middle> middles);
@@ -134,6 +135,7 @@ class Gathering {
   void foresee_bends(VertexId first);
   const std::vector<VertexId>& order();
   void transfer(bool rough = false);
+  void share_out();
   void balance_indirect();
   void settle_energy(std::span<const Rgb> old);
   void add_ambient(std::span<const Rgb> old);
@@ -223,6 +225,13 @@ class Gathering {
   std::vector<SiteLight> site_light_;           // by site, as of light_sites()
   std::vector<VertexId> order_;          // vertices, each after those it is interpolated from
   std::vector<double> indirect_excess_;  // by vertex, lx: of the errors of E_i
+  /// A third of the triangles at a vertex: their area, m², and what they emit, lm; of that, what
+  /// reaches others by hemisphere rays.
+  struct Share {
+    double area = 0;
+    Rgb emitted, emitted_to_rays;
+  };
+  std::vector<Share> shares_;  // by vertex, as of share_out()
   bool stopped_ = false;
 };
 

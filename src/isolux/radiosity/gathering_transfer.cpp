@@ -109,6 +109,7 @@ void Gathering::find_excess() {
 /// Passes the light on along the links, sweep by sweep, until little is unshot.
 void Gathering::transfer(bool rough) {
   find_excess();
+  share_out();
   constexpr int kMostSweeps = 10'000;
   const double enough = (rough ? kRoughUnshotShare : kUnshotShare) * state_.level;
   std::vector<VertexId> gatherers;
@@ -146,25 +147,37 @@ void Gathering::transfer(bool rough) {
   foresee_bends(0);
 }
 
+/// What of the mesh counts by each vertex.
+void Gathering::share_out() {
+  shares_.assign(state_.light.size(), {});
+  for (const Triangle& triangle : mesh_.triangles()) {
+    if (!triangle.alive) continue;
+    const std::uint32_t object = mesh_.vertex(triangle.vertices[0]).surface.object;
+    const double part = triangle.area / 3;
+    const Rgb emitted = triangle.emission * part;
+    for (const VertexId v : triangle.vertices) {
+      shares_[v].area += part;
+      shares_[v].emitted += emitted;
+      if (!lights_.separate()[object]) shares_[v].emitted_to_rays += emitted;
+    }
+  }
+}
+
 /// In a closed scene all that is sent arrives: where interpolation gives a little more or less,
 /// E_i is put right as a whole.
 void Gathering::balance_indirect() {
   constexpr double kClosed = 1e-3;  // of the light sent, lost at most
   Rgb sent, received;
   double lost = 0;
-  for (const Triangle& triangle : mesh_.triangles()) {
-    if (!triangle.alive) continue;
-    const std::uint32_t object = mesh_.vertex(triangle.vertices[0]).surface.object;
-    const Rgb emission = lights_.separate()[object] ? Rgb{} : triangle.emission;
-    for (VertexId v : triangle.vertices) {
-      const VertexLight& light = state_.light[v];
-      const double part = triangle.area / 3;
-      const Rgb radiosity = emission + mesh_.vertex(v).reflectance * state_.sent[v];
-      const double l = luminance(light.indirect);
-      sent += radiosity * part;
-      lost += luminance(radiosity) * light.escaped * part;
-      received += light.indirect * (l > 0 ? part * (1 - indirect_excess_[v] / l) : 0);
-    }
+  for (VertexId v = 0; v < shares_.size(); ++v) {
+    const VertexLight& light = state_.light[v];
+    const Share& share = shares_[v];
+    const Rgb flux =
+        share.emitted_to_rays + mesh_.vertex(v).reflectance * state_.sent[v] * share.area;
+    const double l = luminance(light.indirect);
+    sent += flux;
+    lost += luminance(flux) * light.escaped;
+    received += light.indirect * (l > 0 ? share.area * (1 - indirect_excess_[v] / l) : 0);
   }
   if (!(lost <= kClosed * luminance(sent))) return;
   const auto factor = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.9, 1.1) : 1; };
@@ -177,19 +190,15 @@ void Gathering::balance_indirect() {
 /// The balance after a sweep that began with the irradiances `old`.
 void Gathering::settle_energy(std::span<const Rgb> old) {
   double absorbed = 0, escaped = 0, unshot = 0, incident = 0, total = 0;
-  for (const Triangle& triangle : mesh_.triangles()) {
-    if (!triangle.alive) continue;
-    total += triangle.area;
-    for (VertexId v : triangle.vertices) {
-      const Vertex& vertex = mesh_.vertex(v);
-      const double part = triangle.area / 3;
-      const Rgb& rho = vertex.reflectance;
-      incident += luminance(state_.sent[v]) * part;
-      absorbed += luminance((gray(1) - rho) * state_.sent[v]) * part;
-      escaped +=
-          luminance(rho * state_.sent[v] + triangle.emission) * state_.light[v].escaped * part;
-      unshot += std::abs(luminance(rho * (state_.sent[v] - old[v]))) * part;
-    }
+  for (VertexId v = 0; v < shares_.size(); ++v) {
+    const Share& share = shares_[v];
+    const Rgb& rho = mesh_.vertex(v).reflectance;
+    const Rgb received = state_.sent[v] * share.area;
+    total += share.area;
+    incident += luminance(received);
+    absorbed += luminance((gray(1) - rho) * received);
+    escaped += luminance(rho * received + share.emitted) * state_.light[v].escaped;
+    unshot += std::abs(luminance(rho * (state_.sent[v] - old[v]))) * share.area;
   }
   state_.statistics.absorbed_flux = absorbed;
   state_.statistics.escaped_flux = escaped;
@@ -204,15 +213,12 @@ void Gathering::settle_energy(std::span<const Rgb> old) {
 void Gathering::add_ambient(std::span<const Rgb> old) {
   Rgb added, reflected;
   double total = 0;
-  for (const Triangle& triangle : mesh_.triangles()) {
-    if (!triangle.alive) continue;
-    for (VertexId v : triangle.vertices) {
-      const Vertex& vertex = mesh_.vertex(v);
-      const Rgb sent = vertex.reflectance * (1 - state_.light[v].escaped) * (triangle.area / 3);
-      added += sent * (state_.sent[v] - old[v]);
-      reflected += sent;
-      total += triangle.area / 3;
-    }
+  for (VertexId v = 0; v < shares_.size(); ++v) {
+    const Rgb& rho = mesh_.vertex(v).reflectance;
+    const Rgb sent = rho * (1 - state_.light[v].escaped) * shares_[v].area;
+    added += sent * (state_.sent[v] - old[v]);
+    reflected += sent;
+    total += shares_[v].area;
   }
   const auto ambient = [&](double a, double r) { return a / total / (1 - r / total); };
   const Rgb more{ambient(added.r, reflected.r), ambient(added.g, reflected.g),
