@@ -51,6 +51,23 @@ Point2 turned(const Point2& p, double cosine, double sine) {
   return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
 }
 
+/// The numbers of a row's rays, those of a tile of cells one after the other: neighbours in this
+/// order run close together.
+void tile_by_tile(const Row<Landing>& row, std::size_t count, std::vector<std::uint32_t>& order) {
+  constexpr int kTile = 4;  // cells a side
+  order.clear();
+  for (int top = 0; top < row.grid; top += kTile) {
+    for (int left = 0; left < row.grid; left += kTile) {
+      for (int j = top; j < std::min(top + kTile, row.grid); ++j) {
+        for (int i = left; i < std::min(left + kTile, row.grid); ++i) {
+          order.push_back(static_cast<std::uint32_t>(j * row.grid + i));
+        }
+      }
+    }
+  }
+  while (order.size() < count) order.push_back(static_cast<std::uint32_t>(order.size()));
+}
+
 /// The mean over all cells of the variance of one jittered point in the cell, from the second
 /// differences along both directions of the grid; at its rim, those of the cell next to it.
 double variance_in_cells(std::span<const double> values, int grid) {
@@ -299,15 +316,20 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
       }
     }
   }
+  thread_local std::vector<std::uint32_t> order;
+  tile_by_tile(row, rays.size(), order);
+  thread_local std::vector<Ray> in_order;
+  in_order.clear();
+  for (const std::uint32_t i : order) in_order.push_back(rays[i]);
   thread_local std::vector<std::optional<SurfaceHit>> hits;
   hits.resize(rays.size());
-  rays_.nearest(rays, hits);
+  rays_.nearest(in_order, hits);
   thread_local std::vector<std::optional<MeshPlace>> covering;
   covering.resize(rays.size());
   lookup_.covering(hits, covering);
-  row.rays.clear();
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    row.rays.push_back(landing_of(receiver, rays[i], hits[i], covering[i]));
+  row.rays.resize(rays.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    row.rays[order[k]] = landing_of(receiver, in_order[k], hits[k], covering[k]);
   }
 }
 
