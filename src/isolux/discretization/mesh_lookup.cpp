@@ -13,10 +13,11 @@ namespace {
 // How far outside its sides a triangle still counts, in parts of its height: over a convex edge of
 // the mesh the feet of two neighbours' perpendiculars leave a narrow wedge open.
 constexpr float kOutside = 0.05f;
-// What the whole reach of a triangle counts in the same measure, and what is so near that no other
-// triangle need be looked at.
+// What the whole reach of a triangle counts in the same measure.
 constexpr float kHeight = 0.1f * kOutside;
-constexpr float kSure = 0.1f * kHeight;
+// Over a triangle this near, in parts of its reach, no other need be looked at: one of any object,
+// and one of the object that the point is on, which hardly has another sheet so close by.
+constexpr float kSure = 0.1f, kOwnSure = 0.5f;
 // The cosine of the largest angle between a triangle and the surface that it stands for.
 constexpr float kFacing = 0.5f;
 
@@ -33,13 +34,13 @@ Vec3f operator-(const Vec3f& a, const Vec3f& b) { return {a.x - b.x, a.y - b.y, 
 float dot(const Vec3f& a, const Vec3f& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// All of a triangle, in one line of the cache: with d = p − corner, the weights of the second and
-/// third vertex are along[0]·d and along[1]·d, and the height over it is normal·d. `reach` is how
-/// far the surface may stand off it, m.
+/// third vertex are along[0]·d and along[1]·d, and the height over it is up·d, in parts of how far
+/// the surface may stand off it.
 struct alignas(64) Facet {
   Vec3f corner;
   std::array<Vec3f, 2> along;
-  Vec3f normal;
-  float reach;
+  Vec3f up;
+  std::uint32_t object;
   std::array<VertexId, 3> vertices;
 };
 static_assert(sizeof(Facet) == 64);
@@ -77,6 +78,8 @@ class MeshLookup::Impl {
     return search.place();
   }
 
+  /// First among the triangles of the object that was hit.
+
   /// Grid by grid for several points together, so that they wait for memory together.
   void covering(std::span<const std::optional<SurfaceHit>> hits,
                 std::span<std::optional<MeshPlace>> places) const {
@@ -87,30 +90,34 @@ class MeshLookup::Impl {
       const std::size_t n = std::min(kTogether, hits.size() - first);
       searches.clear();
       for (std::size_t i = first; i < first + n; ++i) {
-        if (hits[i]) searches.emplace_back(hits[i]->point - middle_, hits[i]->normal);
+        if (!hits[i]) continue;
+        const std::uint32_t object = hits[i]->surface.object;
+        const GridSet grids = object < grids_.size() ? grids_[object] : GridSet{};
+        searches.emplace_back(hits[i]->point - middle_, hits[i]->normal, object, grids);
       }
       for (int level = 0; level < levels_; ++level) {
         for (std::size_t k = 0; k < searches.size(); ++k) {
-          if (searches[k].sure) continue;
+          if (!searches[k].open(level)) continue;
           keys[k] = voxel_of(searches[k].from_middle, level);
           __builtin_prefetch(&table_[hash(keys[k]) & (table_.size() - 1)]);
         }
         for (std::size_t k = 0; k < searches.size(); ++k) {
-          if (searches[k].sure) continue;
+          if (!searches[k].open(level)) continue;
           searches[k].listed = find(keys[k]);
           __builtin_prefetch(searches[k].listed.data());
         }
         for (const Search& search : searches) {
-          if (search.sure) continue;
+          if (!search.open(level)) continue;
           for (const std::uint32_t index : search.listed) __builtin_prefetch(&facets_[index]);
         }
         for (Search& search : searches) {
-          if (!search.sure) look_among(search.listed, search);
+          if (search.open(level)) look_among(search.listed, search);
         }
       }
       auto search = searches.begin();
       for (std::size_t i = first; i < first + n; ++i) {
         places[i] = hits[i] ? search++->place() : std::nullopt;
+        if (hits[i] && !places[i]) places[i] = covering(hits[i]->point, hits[i]->normal);
       }
     }
   }
@@ -120,19 +127,27 @@ class MeshLookup::Impl {
   }
 
  private:
+  /// Grids, by bits.
+  using GridSet = std::uint16_t;
+  static constexpr GridSet kAll = 0xffff;
+  static constexpr std::uint32_t kAny = ~0u;  // stands for all objects
+
   /// The best facet so far over a point, counted from the middle of the mesh.
   struct Search {
-    Search(const Vec3& point, const Vec3& facing)
-        : from_middle(point), p(narrow(point)), n(narrow(facing)) {}
+    Search(const Vec3& point, const Vec3& facing, std::uint32_t on = kAny, GridSet among = kAll)
+        : from_middle(point), p(narrow(point)), n(narrow(facing)), object(on), grids(among) {}
 
     Vec3 from_middle;
     Vec3f p, n;
+    std::uint32_t object;                        // whose facets count
+    GridSet grids;                               // where they are
     std::span<const std::uint32_t> listed = {};  // facets to look at next
     const Facet* best = nullptr;
     float score = kOutside;
     std::array<float, 3> weights = {};
     bool sure = false;
 
+    bool open(int level) const { return !sure && (grids >> level & 1); }
     std::optional<MeshPlace> place() const {
       if (!best) return std::nullopt;
       MeshPlace place{best->vertices, {}};
@@ -148,19 +163,21 @@ class MeshLookup::Impl {
   void look_among(std::span<const std::uint32_t> listed, Search& search) const {
     for (const std::uint32_t index : listed) {
       const Facet& facet = facets_[index];
+      if (search.object != kAny && facet.object != search.object) continue;
       const Vec3f d = search.p - facet.corner;
       const float w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
       const float outside = std::max({-w1, -w2, w1 + w2 - 1});
-      if (outside > kOutside || dot(facet.normal, search.n) < kFacing) continue;
-      const float height = std::abs(dot(facet.normal, d));
-      if (height > facet.reach) continue;
+      if (outside > kOutside) continue;
+      const float height = std::abs(dot(facet.up, d)), facing = dot(facet.up, search.n);
+      if (height > 1) continue;
+      if (facing < 0 || facing * facing < kFacing * kFacing * dot(facet.up, facet.up)) continue;
       // The nearest sheet; in it the triangle whose sides are kept best.
-      const float score = std::max(outside, 0.0f) + height / facet.reach * kHeight;
+      const float score = std::max(outside, 0.0f) + height * kHeight;
       if (search.best && score >= search.score) continue;
       search.best = &facet;
       search.score = score;
       search.weights = {1 - w1 - w2, w1, w2};
-      search.sure = outside <= 0 && score < kSure;
+      search.sure = outside <= 0 && height < (search.object == kAny ? kSure : kOwnSure);
       if (search.sure) return;
     }
   }
@@ -201,6 +218,9 @@ class MeshLookup::Impl {
     for (const auto& [key, id, level] : order) {
       const auto index = static_cast<std::uint32_t>(facets_.size());
       facets_.push_back(facet_of(id));
+      const std::uint32_t object = facets_.back().object;
+      if (object >= grids_.size()) grids_.resize(object + 1);
+      grids_[object] |= static_cast<GridSet>(1u << level);
       list(box(id), level, index, facets_.back(), entries);
     }
     fill_table(entries);
@@ -215,8 +235,8 @@ class MeshLookup::Impl {
     const double squared = length_squared(n);
     return {narrow(a - middle_),
             {narrow(cross(ac, n) / squared), narrow(cross(n, ab) / squared)},
-            narrow(triangle.normal),
-            static_cast<float>(reach_of(id)),
+            narrow(triangle.normal / reach_of(id)),
+            mesh_.vertex(triangle.vertices[0]).surface.object,
             triangle.vertices};
   }
 
@@ -285,7 +305,7 @@ class MeshLookup::Impl {
     constexpr double kRoom = 1.01;  // for rounding
     const double scale = scales_[static_cast<std::size_t>(level)];
     const auto wide = [](const Vec3f& v) { return Vec3{v.x, v.y, v.z}; };
-    const Vec3 corner = wide(facet.corner), normal = wide(facet.normal);
+    const Vec3 corner = wide(facet.corner), up = wide(facet.up);
     const Vec3 along1 = wide(facet.along[0]), along2 = wide(facet.along[1]);
     // How far what is linear may be off its value in the middle of a voxel.
     const auto spread = [&](const Vec3& gradient) {
@@ -295,7 +315,7 @@ class MeshLookup::Impl {
     const double least1 = -kRoom * kOutside - spread(along1);
     const double least2 = -kRoom * kOutside - spread(along2);
     const double most12 = 1 + kRoom * kOutside + spread(along1 + along2);
-    const double highest = kRoom * facet.reach + spread(normal);
+    const double highest = kRoom + spread(up);
     const auto middle = [&](std::int64_t k) {
       return (static_cast<double>(k) + 0.5 - kMiddleCell) / scale;
     };
@@ -304,8 +324,7 @@ class MeshLookup::Impl {
         for (auto x = cell(box.lower.x * scale); x <= cell(box.upper.x * scale); ++x) {
           const Vec3 d = Vec3{middle(x), middle(y), middle(z)} - corner;
           const double w1 = dot(along1, d), w2 = dot(along2, d);
-          if (w1 < least1 || w2 < least2 || w1 + w2 > most12 ||
-              std::abs(dot(normal, d)) > highest) {
+          if (w1 < least1 || w2 < least2 || w1 + w2 > most12 || std::abs(dot(up, d)) > highest) {
             continue;
           }
           entries.emplace_back(voxel_key(level, x, y, z), index);
@@ -364,6 +383,7 @@ class MeshLookup::Impl {
   Vec3 middle_;                 // of the mesh
   int levels_ = 0;              // grids
   std::vector<double> scales_;  // by grid: voxels per m
+  std::vector<GridSet> grids_;  // by object: those that its facets are in
   std::vector<Facet> facets_;
   std::vector<std::uint32_t> listed_;  // facets, voxel by voxel
   std::vector<Voxel> table_;
