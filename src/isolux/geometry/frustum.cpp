@@ -104,6 +104,15 @@ Bounds Frustum::bounds() const {
   return box;
 }
 
+/// Whether the line passes the axis at more than the largest radius, with room for rounding.
+bool Frustum::surely_missed_by(const Ray& ray) const {
+  constexpr double kRoom = 1.001, kRounding = 1e-28;
+  const Vec3 from_start = ray.origin - start_, across = cross(ray.direction, frame_.n);
+  const double radius = std::max(start_radius_, end_radius_), s = dot(from_start, across);
+  return s * s > kRoom * radius * radius * length_squared(across) +
+                     kRounding * length_squared(from_start) * length_squared(ray.direction);
+}
+
 Frustum::Line Frustum::localize(const Ray& ray) const {
   const auto to_local = [this](const Vec3& v) {
     return Vec3{dot(v, frame_.u), dot(v, frame_.v), dot(v, frame_.n)};
@@ -163,11 +172,13 @@ Hit Frustum::hit(const Line& line, const Crossing& crossing) const {
 }
 
 void Frustum::intersect(const Ray& ray, Hits& hits) const {
+  if (surely_missed_by(ray)) return;
   const Line line = localize(ray);
   for (const Crossing& c : crossings(line)) hits.push_back(hit(line, c));
 }
 
 bool Frustum::occludes(const Ray& ray, double t_min, double t_max) const {
+  if (surely_missed_by(ray)) return false;
   const Line line = localize(ray);
   for (const Crossing& c : crossings(line)) {
     const double t = c.t + line.shift;

@@ -33,6 +33,7 @@ class Frustum : public Shape {
   struct Crossings;
   static void occlude_regular(const Frustum& frustum, const SegmentBlock& segments, double t_max,
                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one);
+  bool surely_missed_by(const Ray& ray) const;
   Line localize(const Ray& ray) const;
   Crossings crossings(const Line& line) const;
   Hit hit(const Line& line, const Crossing& crossing) const;
