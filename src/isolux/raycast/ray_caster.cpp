@@ -27,8 +27,9 @@ struct Query : RTCIntersectContext {
   const Scene* scene = nullptr;
   // For all_hits(): where they go.
   std::vector<SurfaceHit>* all = nullptr;
-  // For occluded(): the rays of the packet, by their id.
+  // For occluded(): the rays of the packet, by their id; in a block where they are many.
   std::span<const Segment> segments;
+  const SegmentBlock* block = nullptr;
   const ObjectTree* tree = nullptr;
 };
 
@@ -113,12 +114,19 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 }
 
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
+  constexpr std::ptrdiff_t kFew = 3;  // rays, quicker one by one
   auto& query = *static_cast<Query*>(args->context);
   const Primitive& primitive = query.tree->primitive(query, args->geometryUserPtr);
+  const Shape& shape = *primitive.object->shape;
+  const bool together = query.block && shape.part_count() == 1 &&
+                        std::count(args->valid, args->valid + args->N, -1) > kFew;
+  SegmentBlock::Mask blocked{};
+  if (together) shape.occlude(*query.block, kSegmentEnd, blocked);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (!args->valid[lane]) continue;
-    const Segment& segment = query.segments[RTCRayN_id(args->ray, args->N, lane)];
-    if (primitive.object->shape->part_occludes(args->primID, ray_of(segment), 0, kSegmentEnd)) {
+    const unsigned id = RTCRayN_id(args->ray, args->N, lane);
+    if (together ? blocked[id] != 0
+                 : shape.part_occludes(args->primID, ray_of(query.segments[id]), 0, kSegmentEnd)) {
       RTCRayN_tfar(args->ray, args->N, lane) = -std::numeric_limits<float>::infinity();
     }
   }
@@ -270,10 +278,13 @@ bool RayCaster::occluded(const Segment& segment) const {
 }
 
 void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8_t> blocked) const {
-  constexpr std::size_t kLanes = 16;
+  constexpr std::size_t kLanes = SegmentBlock::kLanes;
+  static_assert(kLanes == 16);
+  SegmentBlock block;
   Query query;
   rtcInitIntersectContext(&query);
   query.tree = &impl_->tree;
+  query.block = &block;
   // Embree 3.13 may not come back with coherent packets from trees within trees.
   if (!impl_->tree.has_shared()) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   for (std::size_t first = 0; first < segments.size(); first += kLanes) {
@@ -285,6 +296,7 @@ void RayCaster::occluded(std::span<const Segment> segments, std::span<std::uint8
       valid[lane] = lane < n ? -1 : 0;
       const Segment& segment = query.segments[std::min(lane, n - 1)];
       set_lane(rays, lane, ray_of(segment), 1);
+      block.set(lane, ray_of(segment));
     }
     rtcOccluded16(valid.data(), impl_->tree.rtc(), &query, &rays);
     for (std::size_t lane = 0; lane < n; ++lane) blocked[first + lane] = rays.tfar[lane] < 0;
