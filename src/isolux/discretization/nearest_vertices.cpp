@@ -5,15 +5,19 @@
 namespace isolux {
 namespace {
 
-/// What the tree reads vertices by.
+/// What the tree reads vertices by; a copy, so that it is close together in memory.
 struct Places {
-  const Triangulation& mesh;
-  std::vector<VertexId> vertices;  // of living triangles
+  struct Place {
+    std::array<double, 3> position;  // m
+    Vec3 normal;
+    VertexId vertex;
+  };
+  double max_edge;            // of the mesh, m
+  std::vector<Place> places;  // of the vertices of living triangles
 
-  std::size_t kdtree_get_point_count() const { return vertices.size(); }
+  std::size_t kdtree_get_point_count() const { return places.size(); }
   double kdtree_get_pt(std::size_t i, std::size_t dimension) const {
-    const Vec3& p = mesh.vertex(vertices[i]).position;
-    return dimension == 0 ? p.x : dimension == 1 ? p.y : p.z;
+    return places[i].position[dimension];
   }
   template <typename Box>
   bool kdtree_get_bbox(Box&) const {
@@ -31,19 +35,19 @@ class Facing {
       : places_(places),
         normal_(normal),
         cosine_(cosine),
-        reach_(places.mesh.rules().max_edge * places.mesh.rules().max_edge) {}
+        reach_(places.max_edge * places.max_edge) {}
 
   std::size_t size() const { return count_; }
   bool full() const { return count_ == nearest_.size(); }
   double worstDist() const { return full() ? nearest_.back().first : reach_; }
   bool addPoint(double squared, std::size_t i) {
-    const VertexId v = places_.vertices[i];
-    const bool facing = dot(places_.mesh.vertex(v).normal, normal_) >= cosine_;
+    const Places::Place& place = places_.places[i];
+    const bool facing = dot(place.normal, normal_) >= cosine_;
     if (!facing || squared >= worstDist()) return true;
     count_ += !full();
     std::size_t k = count_ - 1;
     for (; k > 0 && nearest_[k - 1].first > squared; --k) nearest_[k] = nearest_[k - 1];
-    nearest_[k] = {squared, v};
+    nearest_[k] = {squared, place.vertex};
     return true;
   }
 
@@ -71,9 +75,11 @@ class Facing {
 
 class NearestVertices::Tree {
  public:
-  explicit Tree(const Triangulation& mesh) : places_{mesh, {}}, tree_(3, places_) {
+  explicit Tree(const Triangulation& mesh) : places_{mesh.rules().max_edge, {}}, tree_(3, places_) {
     for (VertexId v = 0; v < mesh.vertices().size(); ++v) {
-      if (!mesh.vertex(v).triangles.empty()) places_.vertices.push_back(v);
+      if (mesh.vertex(v).triangles.empty()) continue;
+      const auto& [x, y, z] = mesh.vertex(v).position;
+      places_.places.push_back({{x, y, z}, mesh.vertex(v).normal, v});
     }
     tree_.buildIndex();
   }
