@@ -47,9 +47,9 @@ void BrightPlaces::add(std::span<Part> parts) {
     for (const Vec3& corner : part.corners) {
       node.radius = std::max(node.radius, distance(corner, node.center));
     }
-    node.spread =
-        std::max(node.spread, std::acos(std::clamp(dot(part.normal, node.axis), -1.0, 1.0)));
+    node.cos_spread = std::min(node.cos_spread, dot(part.normal, node.axis));
   }
+  node.sin_spread = std::sqrt(std::max(0.0, 1 - node.cos_spread * node.cos_spread));
   const std::size_t at = nodes_.size();
   nodes_.push_back(node);
   if (parts.size() == 1) return;
@@ -79,10 +79,13 @@ void BrightPlaces::seen_from(const Vec3& point, const Vec3& normal, double least
     if (dot(towards, normal) <= -node.radius) continue;  // below the horizon
     const double away = length(towards);
     const bool apart = away > node.radius;
-    const double half_angle = apart ? std::asin(node.radius / away) : std::numbers::pi;
-    const double turned = std::min(node.spread + half_angle, std::numbers::pi / 2);
-    if (apart && dot(node.axis, towards) >= away * std::sin(turned)) continue;  // its back
-    const double chord = 2 * std::sin(half_angle / 2);
+    // Of half the angle that its sphere fills, and of the largest angle between a normal and the
+    // way to the receiver from anywhere within.
+    const double sine = apart ? node.radius / away : 1, cosine = std::sqrt(1 - sine * sine);
+    const bool all_round = node.cos_spread * cosine <= node.sin_spread * sine;
+    const double turned = all_round ? 1 : node.sin_spread * cosine + node.cos_spread * sine;
+    if (apart && dot(node.axis, towards) >= away * turned) continue;  // its back
+    const double chord = apart ? sine * std::sqrt(2 / (1 + cosine)) : 2;
     if (chord <= fine || (node.second == 0 && apart)) {
       cones.push_back({towards / away, chord, node.radiosity});
     } else if (node.second != 0) {

@@ -37,9 +37,10 @@ class BrightPlaces {
   /// Triangles, close together: all within a sphere and with normals within an angle of an axis.
   struct Node {
     Vec3 center, axis;
-    double radius = 0, spread = 0;  // m, rad
-    double radiosity = 0;           // lm/m², of the brightest
-    std::uint32_t second = 0;       // of its halves, the first comes next; 0: a single triangle
+    double radius = 0;                      // m
+    double cos_spread = 1, sin_spread = 0;  // of the angle
+    double radiosity = 0;                   // lm/m², of the brightest
+    std::uint32_t second = 0;  // of its halves, the first comes next; 0: a single triangle
   };
   struct Part;
 
