@@ -121,9 +121,10 @@ void Gathering::refine_indirect() {
 /// (m²). Where the doubt comes from those that a vertex lies among, they gather first.
 std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
   std::vector<std::pair<double, VertexId>> ranked;
+  const std::vector<double> around = areas_around();
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     if (state_.light[v].gathers) continue;
-    ranked.emplace_back(kMeanSquare * square(state_.light[v].bend / scale(v)) * area_around(v), v);
+    ranked.emplace_back(kMeanSquare * square(state_.light[v].bend / scale(v)) * around[v], v);
   }
   std::sort(ranked.begin(), ranked.end(), std::greater<>());
   const std::size_t n = worth_taking<VertexId>(ranked, budget);
@@ -176,14 +177,15 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
 }
 
 double Gathering::most_bend(VertexId v) const {
-  return kMostBend * leniency(v) * state_.level * scale(v);
+  return kMostBend * leniency(area_around(v)) * state_.level * scale(v);
 }
 
-/// How much more may be wrong at a vertex whose triangles are too small to stand out.
-double Gathering::leniency(VertexId v) const {
+/// How much more may be wrong at a vertex whose triangles, of that area, are too small to stand
+/// out.
+double Gathering::leniency(double area) const {
   constexpr double kSmall = 0.01;  // of the diagonal
   constexpr double kMost = 3;
-  const double size = std::sqrt(area_around(v));
+  const double size = std::sqrt(area);
   return size > 0 ? std::clamp(std::sqrt(kSmall * diagonal_ / size), 1.0, kMost) : kMost;
 }
 
@@ -224,6 +226,16 @@ double Gathering::area_around(VertexId v) const {
   double area = 0;
   for (const TriangleId t : mesh_.vertex(v).triangles) area += mesh_.triangle(t).area;
   return area;
+}
+
+/// The same of all vertices.
+std::vector<double> Gathering::areas_around() const {
+  std::vector<double> areas(state_.light.size());
+  for (const Triangle& triangle : mesh_.triangles()) {
+    if (!triangle.alive) continue;
+    for (const VertexId v : triangle.vertices) areas[v] += triangle.area;
+  }
+  return areas;
 }
 
 /// Sets a rule right by what was found. What was not looked at is more like those of which less was

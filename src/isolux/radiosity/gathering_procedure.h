@@ -106,7 +106,7 @@ class Gathering {
   void gather_all(int finest);
   void trace(std::span<const VertexId> vertices, std::span<const int> grids);
   std::vector<double> doubts();
-  std::vector<double> areas_of_influence();
+  std::vector<double> areas_of_influence(std::vector<double> around);
   std::vector<int> wanted_grids();
   void trace_as_wanted(std::span<const VertexId> vertices, std::span<const int> wanted, int finest);
   struct RowRequest {
@@ -156,11 +156,12 @@ class Gathering {
   double difference(VertexId v, VertexId w) const;
   double usual_bend(VertexId v, VertexId w) const;
   double area_around(VertexId v) const;
+  std::vector<double> areas_around() const;
   double rule_bend(VertexId v) const;
   double bend_beside(VertexId v) const;
   double surprise(VertexId v) const;
   double most_bend(VertexId v) const;
-  double leniency(VertexId v) const;
+  double leniency(double area) const;
   bool stands_out(const Edge& edge, double e) const;
   double indirect_error(const Edge& e) const;
   double indirect_mean_square() const;

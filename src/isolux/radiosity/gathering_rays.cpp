@@ -56,11 +56,11 @@ std::vector<double> Gathering::doubts() {
   return doubts;
 }
 
-/// By vertex, m²: a third of the triangles around it, and parts of the areas of those that are
-/// interpolated from it.
-std::vector<double> Gathering::areas_of_influence() {
-  std::vector<double> areas(state_.light.size());
-  for (VertexId v = 0; v < areas.size(); ++v) areas[v] = area_around(v) / 3;
+/// By vertex, m²: a third of the triangles around it, whose area is given, and parts of the areas
+/// of those that are interpolated from it.
+std::vector<double> Gathering::areas_of_influence(std::vector<double> around) {
+  std::vector<double> areas = std::move(around);
+  for (double& area : areas) area /= 3;
   const std::vector<VertexId>& forth = order();
   for (auto v = forth.rbegin(); v != forth.rend(); ++v) {
     const VertexLight& light = state_.light[*v];
@@ -81,7 +81,8 @@ std::vector<int> Gathering::wanted_grids() {
   constexpr double kDim = 0.25;  // of the mean irradiance
   std::vector<int> grids(state_.light.size(), kCoarsestGrid);
   if (!(mean_irradiance() > 0)) return grids;
-  const std::vector<double> areas = areas_of_influence(), doubt = doubts();
+  const std::vector<double> around = areas_around();
+  const std::vector<double> areas = areas_of_influence(around), doubt = doubts();
   const auto worth = [&](VertexId v) {
     return std::pow(areas[v] * doubt[v] / square(scale(v)), 1 / (1 + kFall));
   };
@@ -94,7 +95,7 @@ std::vector<int> Gathering::wanted_grids() {
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
       const double e = std::max(luminance(irradiance(v)), kDim * mean_irradiance());
-      const double most = square(kMostNoise * leniency(v) * state_.level * e);
+      const double most = square(kMostNoise * leniency(around[v]) * state_.level * e);
       const double least = std::pow(doubt[v] / most, 1 / kFall);
       const double side = std::ceil(std::sqrt(std::max(fineness * worth(v), least)));
       grids[v] = static_cast<int>(
