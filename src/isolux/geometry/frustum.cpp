@@ -104,15 +104,6 @@ Bounds Frustum::bounds() const {
   return box;
 }
 
-/// Whether the line passes the axis at more than the largest radius, with room for rounding.
-bool Frustum::surely_missed_by(const Ray& ray) const {
-  constexpr double kRoom = 1.001, kRounding = 1e-28;
-  const Vec3 from_start = ray.origin - start_, across = cross(ray.direction, frame_.n);
-  const double radius = std::max(start_radius_, end_radius_), s = dot(from_start, across);
-  return s * s > kRoom * radius * radius * length_squared(across) +
-                     kRounding * length_squared(from_start) * length_squared(ray.direction);
-}
-
 Frustum::Line Frustum::localize(const Ray& ray) const {
   const auto to_local = [this](const Vec3& v) {
     return Vec3{dot(v, frame_.u), dot(v, frame_.v), dot(v, frame_.n)};
@@ -193,11 +184,18 @@ bool Frustum::occludes(const Ray& ray, double t_min, double t_max) const {
 ISOLUX_VECTORIZE
 void Frustum::occlude_regular(const Frustum& frustum, const SegmentBlock& segments, double t_max,
                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one) {
+  one_by_one = {};
+  std::int64_t reached = 0;
+  for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
+    reached |= !frustum.surely_missed_by(segments.ray(i));
+  }
+  if (reached == 0) return;
   const Vec3 start = frustum.start_, u = frustum.frame_.u, v = frustum.frame_.v,
              n = frustum.frame_.n;
   const Vec3 middle = start + n * (0.5 * frustum.length_);
   const double slope = frustum.slope_, start_radius = frustum.start_radius_, top = frustum.length_;
   const bool capped = frustum.capped_;
+  const double open = capped ? 0 : kInfinity;  // how far beyond its ends nothing is cut off
   for (std::size_t i = 0; i < SegmentBlock::kLanes; ++i) {
     const Ray ray = segments.ray(i);
     const double shift = dot(middle - ray.origin, ray.direction) / length_squared(ray.direction);
@@ -218,8 +216,8 @@ void Frustum::occlude_regular(const Frustum& frustum, const SegmentBlock& segmen
     const double s1 = q / a, s2 = c / q;
     const double at_start = -o.z / d.z, at_end = (top - o.z) / d.z;
     const double low = std::min(s1, s2), high = std::max(s1, s2);
-    const double enter = capped ? std::max(low, std::min(at_start, at_end)) : low;
-    const double leave = capped ? std::min(high, std::max(at_start, at_end)) : high;
+    const double enter = std::max(low, std::min(at_start, at_end) - open);
+    const double leave = std::min(high, std::max(at_start, at_end) + open);
     const double first = enter + shift, last = leave + shift;
     const double first_z = o.z + enter * d.z, last_z = o.z + leave * d.z;
     const bool first_there = capped | ((first_z >= 0) & (first_z <= top));

@@ -33,7 +33,14 @@ class Frustum : public Shape {
   struct Crossings;
   static void occlude_regular(const Frustum& frustum, const SegmentBlock& segments, double t_max,
                               SegmentBlock::Mask& blocked, SegmentBlock::Mask& one_by_one);
-  bool surely_missed_by(const Ray& ray) const;
+  /// Whether the line passes the axis at more than the largest radius, with room for rounding.
+  bool surely_missed_by(const Ray& ray) const {
+    constexpr double kRoom = 1.001, kRounding = 1e-28;
+    const Vec3 from_start = ray.origin - start_, across = cross(ray.direction, frame_.n);
+    const double radius = std::max(start_radius_, end_radius_), s = dot(from_start, across);
+    return s * s > kRoom * radius * radius * length_squared(across) +
+                       kRounding * length_squared(from_start) * length_squared(ray.direction);
+  }
   Line localize(const Ray& ray) const;
   Crossings crossings(const Line& line) const;
   Hit hit(const Line& line, const Crossing& crossing) const;
