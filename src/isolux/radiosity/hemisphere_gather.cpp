@@ -125,14 +125,21 @@ Rgb mean(const Row<Ray>& row, const Radiosity& radiosity) {
   return mean_over(row, [&](std::size_t i) { return radiosity(row.rays[i]); });
 }
 
-/// As HemisphereGather::gather_with_error() has it.
+/// What ray i of a kept row brings, while what a later one brings is fetched from memory.
+Rgb arriving(const Row<Link>& row, std::span<const SiteLight> sites, std::size_t i) {
+  constexpr std::size_t kAhead = 16;
+  if (i + kAhead < row.rays.size()) __builtin_prefetch(&sites[row.rays[i + kAhead].site]);
+  return sites[row.rays[i].site].at(row.rays[i].weights);
+}
+
+/// As HemisphereGather::gather_with_error() has it; `radiosity` by the ray's number.
 template <typename Ray, typename Radiosity>
 Gathered mean_with_error(const Row<Ray>& row, const Radiosity& radiosity) {
   thread_local std::vector<Rgb> arriving;
   thread_local std::vector<double> values;
   arriving.clear(), values.clear();
-  for (const Ray& ray : row.rays) {
-    arriving.push_back(radiosity(ray));
+  for (std::size_t i = 0; i < row.rays.size(); ++i) {
+    arriving.push_back(radiosity(i));
     values.push_back(luminance(arriving.back()));
   }
   return {mean_over(row, [&](std::size_t i) { return arriving[i]; }),
@@ -359,17 +366,17 @@ Rgb HemisphereGather::gather(const Row<Landing>& row, std::span<const Rgb> irrad
 
 Gathered HemisphereGather::gather_with_error(const Row<Landing>& row,
                                              std::span<const Rgb> irradiance) const {
-  return mean_with_error(row, [&](const Landing& landing) {
-    return light_of(landing.site, irradiance).at(landing.weights);
+  return mean_with_error(row, [&](std::size_t i) {
+    return light_of(row.rays[i].site, irradiance).at(row.rays[i].weights);
   });
 }
 
 Rgb gather(const Row<Link>& row, std::span<const SiteLight> sites) {
-  return mean(row, [&](const Link& link) { return sites[link.site].at(link.weights); });
+  return mean_over(row, [&](std::size_t i) { return arriving(row, sites, i); });
 }
 
 Gathered gather_with_error(const Row<Link>& row, std::span<const SiteLight> sites) {
-  return mean_with_error(row, [&](const Link& link) { return sites[link.site].at(link.weights); });
+  return mean_with_error(row, [&](std::size_t i) { return arriving(row, sites, i); });
 }
 
 }  // namespace isolux
