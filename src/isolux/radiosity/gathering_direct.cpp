@@ -251,12 +251,16 @@ double Gathering::direct_mean_square(std::span<const Edge> edges, std::span<cons
   double narrow = 0, bias = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge& e = edges[i];
+    if (errors[i] == 0) continue;
     if (hairline(e)) narrow += cost(e, errors[i]);
     bias += errors[i] * e.area / 3;
   }
   state_.bias = bias / area();
   state_.narrow_mean_square = narrow / area();
-  return mean_square([&](const Edge& e) { return hairline(e) ? 0 : direct_error(e) / scale(e); });
+  return mean_square([&](const Edge& e) {
+    const double error = direct_error(e);
+    return error == 0 || hairline(e) ? 0 : error / scale(e);
+  });
 }
 
 /// Splits the edges that the bulk criterion names.
@@ -265,8 +269,8 @@ void Gathering::split_worst(std::span<const Edge> edges, std::span<const double>
   std::vector<std::pair<double, std::uint32_t>> ranked;
   double whole = 0;
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    if (errors[i] == 0 || hairline(edges[i])) continue;
     const double share = cost(edges[i], errors[i]);
-    if (!(share > 0) || hairline(edges[i])) continue;
     ranked.emplace_back(-share, i);
     whole += share;
   }
