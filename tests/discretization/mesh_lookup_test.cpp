@@ -62,6 +62,34 @@ TEST(MeshLookup, OfTwoSheetsTheNearer) {
   }
 }
 
+TEST(MeshLookup, OfManyHitsEachInItsOwnObject) {
+  Triangulation mesh({1, 1e-9, 0.5}, {{0, 0, 0}, {1, 1, 1}});
+  add_grid(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, {0, 0}, gray(0.5));
+  add_grid(mesh, {0, 0, 0.003}, {1, 0, 0}, {0, 1, 0}, 40, {1, 0}, gray(0.5));
+  const MeshLookup lookup(mesh);
+  Random random(3);
+  constexpr std::uint32_t kNothing = 2, kWithoutTriangles = 3;
+  std::vector<std::optional<SurfaceHit>> hits;
+  for (std::uint32_t i = 0; i < 101; ++i) {
+    SurfaceHit hit;
+    hit.point = {random.uniform(), random.uniform(), i % 4 == 1 ? 0.003 : 0.0};
+    hit.normal = {0, 0, 1};
+    hit.surface.object = i % 4;
+    hits.push_back(hit);
+    if (i % 4 == kNothing) hits.back().reset();
+  }
+  std::vector<std::optional<MeshPlace>> places(hits.size());
+  lookup.covering(hits, places);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    ASSERT_EQ(places[i].has_value(), hits[i].has_value());
+    if (!hits[i]) continue;
+    EXPECT_LT(distance(at(mesh, *places[i]), hits[i]->point), 1e-6) << i;
+    const std::uint32_t object = hits[i]->surface.object;
+    const std::uint32_t found = mesh.vertex(places[i]->vertices[0]).surface.object;
+    EXPECT_EQ(found, object == kWithoutTriangles ? 0 : object);
+  }
+}
+
 TEST(MeshLookup, WhereNoTriangleLiesTheNearestVerticesOfTheSameSideStandIn) {
   Triangulation mesh({0.3, 1e-9, 0.5}, {{0, 0, 0}, {1, 1, 1}});
   add_grid(mesh, {0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, 4, {0, 0}, gray(0.5));

@@ -78,44 +78,22 @@ class MeshLookup::Impl {
     return search.place();
   }
 
-  /// First among the triangles of the object that was hit.
-
-  /// Grid by grid for several points together, so that they wait for memory together.
   void covering(std::span<const std::optional<SurfaceHit>> hits,
                 std::span<std::optional<MeshPlace>> places) const {
     constexpr std::size_t kTogether = 16;
     thread_local std::vector<Search> searches;
-    std::array<VoxelKey, kTogether> keys;
     for (std::size_t first = 0; first < hits.size(); first += kTogether) {
-      const std::size_t n = std::min(kTogether, hits.size() - first);
+      const std::size_t end = std::min(first + kTogether, hits.size());
       searches.clear();
-      for (std::size_t i = first; i < first + n; ++i) {
+      for (std::size_t i = first; i < end; ++i) {
         if (!hits[i]) continue;
         const std::uint32_t object = hits[i]->surface.object;
         const GridSet grids = object < grids_.size() ? grids_[object] : GridSet{};
         searches.emplace_back(hits[i]->point - middle_, hits[i]->normal, object, grids);
       }
-      for (int level = 0; level < levels_; ++level) {
-        for (std::size_t k = 0; k < searches.size(); ++k) {
-          if (!searches[k].open(level)) continue;
-          keys[k] = voxel_of(searches[k].from_middle, level);
-          __builtin_prefetch(&table_[hash(keys[k]) & (table_.size() - 1)]);
-        }
-        for (std::size_t k = 0; k < searches.size(); ++k) {
-          if (!searches[k].open(level)) continue;
-          searches[k].listed = find(keys[k]);
-          __builtin_prefetch(searches[k].listed.data());
-        }
-        for (const Search& search : searches) {
-          if (!search.open(level)) continue;
-          for (const std::uint32_t index : search.listed) __builtin_prefetch(&facets_[index]);
-        }
-        for (Search& search : searches) {
-          if (search.open(level)) look_among(search.listed, search);
-        }
-      }
+      look_together(searches);
       auto search = searches.begin();
-      for (std::size_t i = first; i < first + n; ++i) {
+      for (std::size_t i = first; i < end; ++i) {
         places[i] = hits[i] ? search++->place() : std::nullopt;
         if (hits[i] && !places[i]) places[i] = covering(hits[i]->point, hits[i]->normal);
       }
@@ -141,7 +119,8 @@ class MeshLookup::Impl {
     Vec3f p, n;
     std::uint32_t object;                        // whose facets count
     GridSet grids;                               // where they are
-    std::span<const std::uint32_t> listed = {};  // facets to look at next
+    VoxelKey key = 0;                            // of the voxel to look into next,
+    std::span<const std::uint32_t> listed = {};  // and its facets
     const Facet* best = nullptr;
     float score = kOutside;
     std::array<float, 3> weights = {};
@@ -159,6 +138,29 @@ class MeshLookup::Impl {
       return place;
     }
   };
+
+  /// Grid by grid, so that all wait for memory together.
+  void look_together(std::span<Search> searches) const {
+    for (int level = 0; level < levels_; ++level) {
+      const auto for_open = [&](const auto& act) {
+        for (Search& search : searches) {
+          if (search.open(level)) act(search);
+        }
+      };
+      for_open([&](Search& search) {
+        search.key = voxel_of(search.from_middle, level);
+        __builtin_prefetch(&table_[hash(search.key) & (table_.size() - 1)]);
+      });
+      for_open([&](Search& search) {
+        search.listed = find(search.key);
+        __builtin_prefetch(search.listed.data());
+      });
+      for_open([&](const Search& search) {
+        for (const std::uint32_t index : search.listed) __builtin_prefetch(&facets_[index]);
+      });
+      for_open([&](Search& search) { look_among(search.listed, search); });
+    }
+  }
 
   void look_among(std::span<const std::uint32_t> listed, Search& search) const {
     for (const std::uint32_t index : listed) {

@@ -25,8 +25,8 @@ class MeshLookup {
   /// within 60°; nothing where no triangle does. May be asked from many threads at once.
   std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const;
 
-  /// The same where rays met the surface, faster for many than one by one: places[i] is that of
-  /// hits[i], nothing where that is nothing.
+  /// The same where rays met surfaces, first among the triangles of the objects that they met, and
+  /// faster for many: places[i] is that of hits[i], nothing where that is nothing.
   void covering(std::span<const std::optional<SurfaceHit>> hits,
                 std::span<std::optional<MeshPlace>> places) const;
 
