@@ -12,9 +12,9 @@ struct PlaneHit {
   Vec3 point;  ///< on the plane
 };
 
-/// The same without branches, for many lines at once; `there` tells whether the line meets it.
+/// intersect_plane() without branches, for many lines at once.
 struct PlaneCrossing {
-  bool there;
+  bool there;  ///< else nothing else counts
   double t;
   Vec3 point;
 };
