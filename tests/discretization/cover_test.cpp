@@ -288,6 +288,39 @@ TEST(CoverTest, CeilingsAreCoveredUpToWhatHangsAHairBelow) {
   EXPECT_LT(ceiling, 1.005 * 16);
 }
 
+/// Edges of a thin-walled tube are split on its outside, not on the wall's other face, though that
+/// is nearer to their middles than the arc over them.
+TEST(CoverTest, EdgesOverThinWallsAreSplitOnTheSideOfTheirEnds) {
+  const double outside = 1, inside = 0.93;
+  const Scene scene = scene_of(fmt::format(
+      "materials: {{m: {{reflectance: 0.5}}}}\nobjects:\n"
+      "  - {{shape: {{box: {{lower: [-2, -2, -2], upper: [2, 2, 2], inward: true}}}}, material: "
+      "m}}\n"
+      "  - {{shape: {{cylinder: {{from: [0, 0, -1], to: [0, 0, 1], radius: {}, open: true}}}}, "
+      "material: m}}\n"
+      "  - {{shape: {{cylinder: {{from: [0, 0, -1], to: [0, 0, 1], radius: {}, open: true}}}}, "
+      "material: m}}\n",
+      outside, inside));
+  const RayCaster rays(scene);
+  Triangulation mesh({3, 1e-9, 0.77}, scene.bounds());
+  std::vector<VertexId> ids;
+  for (const double angle : {0.0, 0.75}) {  // the chord's middle lies at 0.9305 m
+    for (const double z : {0.3, -0.3}) {
+      Vertex v;
+      v.normal = {std::cos(angle), std::sin(angle), 0};
+      v.position = v.gather_point = v.normal * outside + Vec3{0, 0, z};
+      v.surface = {1, 0};
+      v.reflectance = gray(0.5);
+      ids.push_back(mesh.restore_vertex(v));
+    }
+  }
+  mesh.restore_triangle({ids[0], ids[1], ids[2]}, {}, {}, false);
+  mesh.restore_triangle({ids[1], ids[3], ids[2]}, {}, {}, false);
+  const auto middle = point_over_edge(mesh, rays, ids[1], ids[2]);
+  ASSERT_TRUE(middle);
+  EXPECT_NEAR(std::hypot(middle->position.x, middle->position.y), outside, 1e-9);
+}
+
 /// A wall that the ends of slats stand on, none of whose creases is as long as the wall's points
 /// are apart.
 TEST(CoverTest, WallsAreCoveredBesideShortCreases) {

@@ -10,14 +10,8 @@ constexpr double kInset = 1e-3;
 constexpr double kInsetEpsilons = 10;
 // A crease is looked for within this part of the edge from it, more than it bulges between ends.
 constexpr double kPull = 0.2;
-
-/// The surface over or under `point` along `normal`, no further than `reach` tells.
-std::optional<ZonePoint> surface_at(const SurfaceWalk& walk, ZonePoint near, double reach) {
-  // Seen from beside, so that the walk looks as far up and down as facets bulge.
-  const Vec3 target = near.position;
-  near.position -= Frame(near.normal).u * reach;
-  return walk.over(near, target);
-}
+// The surface is found within this part of the edge from where an arc over it would lie.
+constexpr double kReach = 0.18;
 
 ZonePoint zone_of(const Triangulation& mesh, TriangleId triangle) {
   const Triangle& t = mesh.triangle(triangle);
@@ -39,18 +33,21 @@ std::optional<SurfacePoint> point_over_edge(const Triangulation& mesh, const Ray
   ZonePoint middle = zone_of(mesh, left ? *left : *right);
   middle.position = (from.position + to.position) * 0.5;
   middle.normal = normalized(from.normal + to.normal);
-  const double along = distance(from.position, to.position);
-  if (left && right) return surface_at(walk, middle, 0.3 * along);
+  // As high as a circular arc rises whose normals those of the ends are.
+  const Vec3 ab = to.position - from.position;
+  middle.position += middle.normal * (dot(to.normal - from.normal, ab) / 8);
+  const double along = length(ab);
+  if (left && right) return walk.nearest(middle, kReach * along);
 
-  const Vec3 outward = normalized(cross(to.position - from.position, middle.normal));
+  const Vec3 outward = normalized(cross(ab, middle.normal));
   ZonePoint pulled = middle;
   pulled.position -= outward * (kPull * along);
-  const auto inside = surface_at(walk, pulled, 0.3 * along);
-  if (!inside) return surface_at(walk, middle, 0.3 * along);
+  const auto inside = walk.nearest(pulled, kReach * along);
+  if (!inside) return walk.nearest(middle, kReach * along);
   const Vec3 ahead = tangential(outward, inside->normal);
   const double far = 2 * kPull * along;
   if (walk.step(*inside, inside->position + ahead * far)) {
-    return surface_at(walk, middle, 0.3 * along);  // the edge of a hole in the mesh
+    return walk.nearest(middle, kReach * along);  // the edge of a hole in the mesh
   }
   const double inset = std::max(kInset * along, kInsetEpsilons * rays.epsilon());
   const Rim rim = walk.rim(*inside, ahead, 0, far, 0.1 * inset);
@@ -70,7 +67,7 @@ std::optional<SurfacePoint> point_over_triangle(const Triangulation& mesh, const
   }
   point.position = position;
   point.normal = normalized(normal);
-  return surface_at(walk, point, 0.5 * std::sqrt(mesh.triangle(triangle).area));
+  return walk.nearest(point, 0.3 * std::sqrt(mesh.triangle(triangle).area));
 }
 
 }  // namespace isolux

@@ -40,29 +40,48 @@ std::optional<ZonePoint> SurfaceWalk::at(const SurfaceHit& hit) const {
 std::optional<ZonePoint> SurfaceWalk::over(const ZonePoint& from, const Vec3& target) const {
   const Vec3 d = target - from.position;
   const Vec3 along = d - from.normal * dot(d, from.normal);
-  const double reach = kReach * length(along) + 16 * rays_.epsilon();
-  const Ray ray{from.position + along + from.normal * reach, -from.normal};
-  thread_local std::vector<SurfaceHit> hits;
-  rays_.all_hits(ray, {0, 2 * reach}, hits);
-  std::erase_if(
-      hits, [&](const SurfaceHit& hit) { return dot(hit.normal, from.normal) < cos_tolerance_; });
-  if (hits.empty()) return std::nullopt;
-  const auto height = [&](const SurfaceHit& hit) { return std::abs(hit.t - reach); };
-  if (hits.size() > 1) std::ranges::stable_sort(hits, {}, height);
+  thread_local std::vector<Sheet> sheets;
+  find_sheets(from.position + along, from.normal, kReach * length(along), sheets);
+  if (sheets.empty()) return std::nullopt;
   // Another sheet may lie nearer to the tangent plane, but hidden, as behind a hollow one. Nor does
   // the surface go on where it would have to rise more than it has turned.
-  const auto goes_on = [&](const SurfaceHit& hit) {
-    const double cosine = dot(hit.normal, from.normal);
+  const auto goes_on = [&](const Sheet& sheet) {
+    const double cosine = dot(sheet.hit.normal, from.normal);
     const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    if (height(hit) * cosine > length(along) * sine + rays_.epsilon()) return false;
+    if (sheet.height * cosine > length(along) * sine + rays_.epsilon()) return false;
     SurfacePoint there;
-    there.position = hit.point, there.normal = hit.normal;
+    there.position = sheet.hit.point, there.normal = sheet.hit.normal;
     return open(from, there);
   };
-  auto sheet = hits.begin();
-  if (hits.size() > 1) sheet = std::ranges::find_if(hits, goes_on);
-  std::optional<ZonePoint> found = at(sheet != hits.end() ? *sheet : hits.front());
-  if (found && (found->reflectance != from.reflectance || found->emission != from.emission)) {
+  auto sheet = sheets.begin();
+  if (sheets.size() > 1) sheet = std::ranges::find_if(sheets, goes_on);
+  return in_zone(from, sheet != sheets.end() ? *sheet : sheets.front());
+}
+
+std::optional<ZonePoint> SurfaceWalk::nearest(const ZonePoint& guess, double reach) const {
+  thread_local std::vector<Sheet> sheets;
+  find_sheets(guess.position, guess.normal, reach, sheets);
+  return sheets.empty() ? std::nullopt : in_zone(guess, sheets.front());
+}
+
+/// All sheets over or under a point that face as `normal` does, no further than `reach` (m) and a
+/// little, the nearest first.
+void SurfaceWalk::find_sheets(const Vec3& point, const Vec3& normal, double reach,
+                              std::vector<Sheet>& sheets) const {
+  const double far = reach + 16 * rays_.epsilon();
+  thread_local std::vector<SurfaceHit> hits;
+  rays_.all_hits({point + normal * far, -normal}, {0, 2 * far}, hits);
+  sheets.clear();
+  for (const SurfaceHit& hit : hits) {
+    if (dot(hit.normal, normal) >= cos_tolerance_) sheets.push_back({hit, std::abs(hit.t - far)});
+  }
+  if (sheets.size() > 1) std::ranges::stable_sort(sheets, {}, &Sheet::height);
+}
+
+/// The point of the sheet; nothing where light can't reach it, or it is of another zone.
+std::optional<ZonePoint> SurfaceWalk::in_zone(const ZonePoint& zone, const Sheet& sheet) const {
+  std::optional<ZonePoint> found = at(sheet.hit);
+  if (found && (found->reflectance != zone.reflectance || found->emission != zone.emission)) {
     return std::nullopt;
   }
   return found;

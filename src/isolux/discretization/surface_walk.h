@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "isolux/discretization/triangulation.h"
 
@@ -33,6 +34,10 @@ class SurfaceWalk {
   /// several sheets there, the nearest to its tangent plane that it may go on in.
   std::optional<ZonePoint> over(const ZonePoint& from, const Vec3& target) const;
 
+  /// The point of the sheet nearest to `guess`, over or under it along its normal, that faces as
+  /// that does; nothing where none is found within `reach` (m) or it is of another zone.
+  std::optional<ZonePoint> nearest(const ZonePoint& guess, double reach) const;
+
   /// As over(), where besides nothing stands between.
   std::optional<ZonePoint> step(const ZonePoint& from, const Vec3& target) const;
 
@@ -50,6 +55,14 @@ class SurfaceWalk {
   const RayCaster& rays() const { return rays_; }
 
  private:
+  struct Sheet {
+    SurfaceHit hit;
+    double height;  // m: over or under the point it was looked for at
+  };
+  void find_sheets(const Vec3& point, const Vec3& normal, double reach,
+                   std::vector<Sheet>& sheets) const;
+  std::optional<ZonePoint> in_zone(const ZonePoint& zone, const Sheet& sheet) const;
+
   const RayCaster& rays_;
   double tolerance_, cos_tolerance_;
 };

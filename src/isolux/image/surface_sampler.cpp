@@ -42,7 +42,7 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
   const Rgb emission = hit->back ? Rgb{} : object.exitance;
   const std::optional<MeshHit> mesh = paired(ray, *hit, scratch);
   if (lookup_) {
-    SurfaceSample sample = looked_up(ray, *hit, mesh);
+    SurfaceSample sample = looked_up(*hit, mesh);
     sample.exitance = emission + reflectance * sample.exitance;
     sample.reflectance = reflectance;
     return sample;
@@ -59,14 +59,13 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
 }
 
 /// The irradiance, in place of the exitance, at a point of a mesh by gathering.
-SurfaceSample SurfaceSampler::looked_up(const Ray& ray, const SurfaceHit& hit,
+SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
                                         const std::optional<MeshHit>& paired) const {
   SurfaceSample sample{SampleKind::interpolated, {}, paired, {hit.point, hit.normal}};
-  if (paired) {
-    sample.place = place_in(solution_.mesh, paired->triangle, ray.at(paired->t));
-  } else {
+  sample.place = lookup_->covering(hit.point, hit.normal);
+  if (!sample.place) {
     sample.kind = SampleKind::extrapolated;
-    sample.place = lookup_->place(hit.point, hit.normal);
+    sample.place = lookup_->nearest(hit.point, hit.normal);
   }
   if (!sample.place) {
     sample.kind = SampleKind::dark;

@@ -24,7 +24,7 @@ enum class SampleKind {
 struct SurfaceSample {
   SampleKind kind = SampleKind::background;
   Rgb exitance;                 ///< lm/m²: emitted and reflected by the true surface
-  std::optional<MeshHit> mesh;  ///< where interpolated
+  std::optional<MeshHit> mesh;  ///< the triangle paired with the surface
   /// Of a solution by gathering, where light was found: the point, its reflectance, and the
   /// vertices that its light is interpolated from.
   Receiver receiver = {};
@@ -53,8 +53,7 @@ class SurfaceSampler {
  private:
   std::optional<MeshHit> paired(const Ray& ray, const SurfaceHit& hit, Scratch& scratch) const;
   std::optional<Rgb> extrapolated(const SurfacePoint& point, Scratch& scratch) const;
-  SurfaceSample looked_up(const Ray& ray, const SurfaceHit& hit,
-                          const std::optional<MeshHit>& paired) const;
+  SurfaceSample looked_up(const SurfaceHit& hit, const std::optional<MeshHit>& paired) const;
   std::optional<Rgb> stand_ins(const SurfacePoint& point, std::vector<VertexId>& near) const;
 
   const Solution& solution_;
