@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "isolux/core/error.h"
-#include "isolux/discretization/coarsen.h"
 #include "isolux/discretization/cover.h"
 #include "isolux/radiosity/energy.h"
 #include "isolux/radiosity/gathering_procedure.h"
@@ -65,8 +64,8 @@ void Gathering::first_solution() {
   cover(mesh_, rays_, cover_options);
   state_.level = std::max(options_.tolerance, kFirstTolerance);
   light_newborn();
-  const Coarsening subsets = coarsen(mesh_, kSubsets);
-  for (const VertexId v : subsets.order) state_.give_parents(v, subsets.places[v]);
+  give_places(coarsen(mesh_, kSubsets));
+  light_hidden();
   state_.statistics.emitted_flux = emitted_flux();
   gather_all(kTrialGrid);
   transfer();

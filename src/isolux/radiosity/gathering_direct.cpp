@@ -77,21 +77,11 @@ void Gathering::look_closer() {
   std::erase_if(state_.middles, [](const auto& m) { return m.second.deviation == kUnknown; });
   std::vector<VertexId> open;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
-    if (too_open(state_.light[v].direct_deviation, scale(v))) open.push_back(v);
+    const VertexLight& light = state_.light[v];
+    if (!light.hidden && too_open(light.direct_deviation, scale(v))) open.push_back(v);
   }
   light_directly(open);
-}
-
-/// Whether something lies close over the point in the middle of an edge, but not over its ends: it
-/// is on a sheet that goes on under the one that is seen, as where a board's edge is a tube.
-bool Gathering::hidden(const SurfacePoint& middle, const Edge& edge) const {
-  constexpr double kClose = 0.1;  // of the edge
-  const Vertex &a = mesh_.vertex(edge.a), &b = mesh_.vertex(edge.b);
-  const double far = kClose * distance(a.position, b.position), near = 8 * rays_.epsilon();
-  const auto covered = [&](const SurfacePoint& p) {
-    return rays_.occluded({p.position + p.normal * near, p.position + p.normal * far});
-  };
-  return far > near && covered(middle) && !covered(a) && !covered(b);
+  light_hidden();
 }
 
 /// The surface over the middles of `chosen` edges, and E_d there, if it is not known well enough,

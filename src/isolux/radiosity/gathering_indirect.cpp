@@ -143,7 +143,7 @@ std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
     const VertexId v = open.back();
     open.pop_back();
     const VertexLight& light = state_.light[v];
-    if (2 * light.own_bend >= light.bend) {
+    if (!light.hidden && 2 * light.own_bend >= light.bend) {
       doubtful.push_back(v);
       continue;
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "isolux/core/parallel.h"
+#include "isolux/discretization/coarsen.h"
 #include "isolux/discretization/living_edges.h"
 #include "isolux/radiosity/direct_light.h"
 #include "isolux/radiosity/gathering_state.h"
@@ -24,8 +25,9 @@ namespace isolux {
 //   τ                the tolerance
 
 /// One run of gather_radiosity(): the procedure in gathering.cpp, the refinement for E_d in
-/// gathering_direct.cpp, links for E_i in gathering_rays.cpp, its transfer in
-/// gathering_transfer.cpp, and its refinement in gathering_indirect.cpp.
+/// gathering_direct.cpp, what lies hidden in gathering_hidden.cpp, links for E_i in
+/// gathering_rays.cpp, its transfer in gathering_transfer.cpp, and its refinement in
+/// gathering_indirect.cpp.
 class Gathering {
  public:
   Gathering(GatheringState& state, const RayCaster& rays, const Options& options,
@@ -85,7 +87,6 @@ class Gathering {
   void light_newborn();
   void look_closer();
   std::vector<Middle> middles_of(std::span<const Edge> edges);
-  bool hidden(const SurfacePoint& middle, const Edge& edge) const;
   void light_middles(std::span<const Edge> edges, std::span<const std::uint32_t> chosen,
                      std::span<Middle> middles);
   double error_at(const Edge& edge, const Middle& middle) const;
@@ -101,6 +102,13 @@ class Gathering {
   void split_all(std::span<const Edge> edges);
   std::vector<Edge> longer_sides(std::span<const Edge> edges) const;
   void split(std::span<const Edge> edges, std::span<const Middle> middles);
+
+  // What lies hidden close under another sheet
+  bool covered(const SurfacePoint& point, double far) const;
+  bool hidden(const SurfacePoint& middle, const Edge& edge) const;
+  std::vector<MeshPlace> seen_beside_hidden();
+  void give_places(const Coarsening& subsets);
+  void light_hidden();
 
   // E_i
   void gather_all(int finest);

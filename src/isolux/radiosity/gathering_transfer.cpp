@@ -69,7 +69,7 @@ void Gathering::foresee_bends(VertexId first) {
   parallel_for(state_.light.size() - first, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = first + begin; v < first + end; ++v) {
       VertexLight& light = state_.light[v];
-      if (light.gathers) continue;
+      if (light.gathers || light.hidden) continue;
       light.own_bend = std::max(rule_bend(VertexId(v)), bend_beside(VertexId(v)));
       if (light.row.empty()) continue;
       const Gathered rough = gather(light.row);

@@ -50,7 +50,8 @@ struct PackedLight {
   double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0,
          excess = 0, glimpse = 0, glimpse_deviation = 0;
   MeshPlace among;
-  std::uint32_t depth = 0, gathers = 0, grid = 0, divided = 0;
+  std::uint32_t depth = 0, grid = 0, divided = 0;
+  std::uint16_t gathers = 0, hidden = 0;
   std::uint64_t links = 0;
 };
 
@@ -181,8 +182,9 @@ json state_to_json(const GatheringState& state) {
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend,
                       l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among, l.depth,
-                      l.gathers, static_cast<std::uint32_t>(l.row.grid),
-                      static_cast<std::uint32_t>(l.row.divided.size()), l.row.rays.size()});
+                      static_cast<std::uint32_t>(l.row.grid),
+                      static_cast<std::uint32_t>(l.row.divided.size()), l.gathers, l.hidden,
+                      l.row.rays.size()});
     links.insert(links.end(), l.row.rays.begin(), l.row.rays.end());
     divided.insert(divided.end(), l.row.divided.begin(), l.row.divided.end());
   }
@@ -249,6 +251,7 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
          p.among,
          p.depth,
          p.gathers != 0,
+         p.hidden != 0,
          {static_cast<int>(p.grid), take(divided, next_divided, p.divided, "divided"),
           take(links, next, p.links, "links")}});
     check(state.light.back().row);
