@@ -9,7 +9,10 @@
 #include "isolux/core/parallel.h"
 #include "isolux/core/random.h"
 #include "isolux/discretization/coverage.h"
+#include "isolux/discretization/interpolation.h"
+#include "isolux/discretization/mesh_lookup.h"
 #include "isolux/radiosity/furnace.h"
+#include "isolux/radiosity/illumination.h"
 #include "isolux/radiosity/solve.h"
 #include "support/scenes.h"
 
@@ -159,6 +162,58 @@ TEST(Gathering, LeavesFewThinTrianglesAndNothingBare) {
   EXPECT_LT(thin, 0.03 * static_cast<double>(mesh.triangle_count()));
   const Coverage coverage = coverage_of(mesh, rays, 100'000, 1);
   EXPECT_GT(coverage.covered, 0.995 * coverage.area);
+}
+
+/// Two roads to the light at points: interpolated in the mesh of a solve at 2 %, and gathered
+/// there. The largest difference, in parts of the mean of what is gathered.
+double worst_interpolation(const Scene& scene, const Solved& solved,
+                           std::span<const Receiver> points) {
+  const RayCaster rays(scene);
+  const std::vector<Illumination> gathered =
+      gather_at(solved.mesh, rays, solved.statistics, points, 1);
+  const MeshLookup lookup(solved.mesh);
+  double worst = 0, mean = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto place = lookup.place(points[i].point, points[i].normal);
+    EXPECT_TRUE(place);
+    if (!place) continue;
+    const double there = luminance(interpolate_irradiance(solved.mesh, *place));
+    worst = std::max(worst, std::abs(there - luminance(gathered[i].irradiance)));
+    mean += luminance(gathered[i].irradiance) / double(points.size());
+  }
+  return worst / mean;
+}
+
+TEST(Gathering, ALampCloseUnderACeilingDoesNotDarkenItBeside) {
+  // What the lamp hides is dark, and triangles reach out from there.
+  const Scene scene = scene_of(R"(
+materials: {any: {reflectance: 0.5}}
+objects:
+  - {shape: {box: {lower: [-2, -2, 0], upper: [2, 2, 2.5], inward: true}}, material: any}
+  - shape: {parallelogram: {corner: [-0.4, -0.4, 2.49924], u: [0, 0.8, 0], v: [0.8, 0, 0]}}
+    material: any
+    sides: front
+    emission: {exitance: 100}
+)");
+  std::vector<Receiver> beside;
+  for (const double away : {0.02, 0.05, 0.1}) {
+    for (double along = -0.4; along <= 0.4; along += 0.1) {
+      const double off = 0.4 + away;
+      for (const Vec3& p : {Vec3{off, along, 2.5}, Vec3{-off, along, 2.5}, Vec3{along, off, 2.5},
+                            Vec3{along, -off, 2.5}}) {
+        beside.push_back({p, {0, 0, -1}});
+      }
+    }
+  }
+  const Solved solved = solve(scene, to_tolerance(0.02));
+  EXPECT_THAT(solved.mesh.validate(), ::testing::IsEmpty());
+  EXPECT_LT(worst_interpolation(scene, solved, beside), 0.15);
+  // Nor are triangles spent on where that darkness ends.
+  const auto above_the_lamp = [](const Vertex& v) {
+    return v.normal.z < 0 && v.position.z > 2.4995 &&
+           std::max(std::abs(v.position.x), std::abs(v.position.y)) < 0.4;
+  };
+  EXPECT_LT(std::ranges::count_if(solved.mesh.vertices(), above_the_lamp), 5);
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ bool Gathering::hidden(const SurfacePoint& middle, const Edge& edge) const {
   return !covered(a, far) && !covered(b, far);
 }
 
-/// By vertex: of those that lie hidden but have neighbours that do not, up to three of these.
-/// Their triangles reach out from under the sheet that covers them, as on a ceiling over a lamp,
-/// and would be seen to be dark.
+/// By vertex: of those that lie hidden but have neighbours under no cover at all, up to three of
+/// these. Their triangles reach out from under the sheet that covers them, as on a ceiling over a
+/// lamp, and would be seen to be dark. Where bodies touch, neighbours are covered too.
 std::vector<MeshPlace> Gathering::seen_beside_hidden() {
   constexpr double kFacing = 0.7;  // cosine
   std::vector<char> dark(mesh_.vertices().size());
@@ -54,7 +54,8 @@ std::vector<MeshPlace> Gathering::seen_beside_hidden() {
       for (const VertexId w : mesh_.triangle(t).vertices) {
         const Vertex& other = mesh_.vertex(w);
         if (dark[w] || dot(vertex.normal, other.normal) < kFacing) continue;
-        seen.emplace_back(length_squared(other.position - vertex.position), w);
+        const double away = distance(vertex.position, other.position);
+        if (!covered(other, away)) seen.emplace_back(square(away), w);
       }
     }
     std::sort(seen.begin(), seen.end());
