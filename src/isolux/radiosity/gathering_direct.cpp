@@ -161,8 +161,8 @@ void Gathering::refine_direct() {
     const std::vector<Edge> edges = living_edges(mesh_);
     sample(edges);
     const double target = square(kDirectShare * state_.level);
-    std::vector<double> errors;
-    for (const Edge& e : edges) errors.push_back(direct_error(e));
+    const std::vector<double> errors =
+        of_edges(edges, [&](const Edge& e) { return direct_error(e); });
     const double total = direct_mean_square(edges, errors);
     state_.direct_mean_square = total;
     if (stopped_ || total <= target || full()) return;

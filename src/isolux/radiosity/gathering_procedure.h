@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -51,18 +52,21 @@ class Gathering {
   /// error(edge), relative to what they are held against, in the middles of edges.
   template <typename Error>
   double mean_square(Error&& error) const {
-    double sum = 0;
-    for (const Triangle& triangle : mesh_.triangles()) {
-      if (!triangle.alive) continue;
-      const auto& [a, b, c] = triangle.vertices;
-      const auto between = [&](VertexId v, VertexId w) {
-        return error(v < w ? Edge{v, w, 0} : Edge{w, v, 0});
-      };
-      const double e = between(a, b), f = between(b, c), g = between(c, a);
-      const double squares = e * e + f * f + g * g;
-      sum += kMeanSquare / 2 * (squares + e * f + f * g + g * e) * triangle.area;
-    }
-    return sum / area();
+    const std::span<const Triangle> triangles = mesh_.triangles();
+    std::vector<double> squares(triangles.size());
+    parallel_for(triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!triangles[i].alive) continue;
+        const auto between = [&](VertexId v, VertexId w) {
+          return error(v < w ? Edge{v, w, 0} : Edge{w, v, 0});
+        };
+        const auto& [a, b, c] = triangles[i].vertices;
+        const double e = between(a, b), f = between(b, c), g = between(c, a);
+        const double sum = e * e + f * f + g * g + e * f + f * g + g * e;
+        squares[i] = kMeanSquare / 2 * sum * triangles[i].area;
+      }
+    });
+    return std::accumulate(squares.begin(), squares.end(), 0.0) / area();
   }
 
   // The procedure
@@ -207,14 +211,24 @@ class Gathering {
     return at == state_.indirect_error.end() ? 0 : at->second;
   }
 
+  template <typename Error>
+  static std::vector<double> of_edges(std::span<const Edge> edges, const Error& error) {
+    std::vector<double> errors(edges.size());
+    parallel_for(edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) errors[i] = error(edges[i]);
+    });
+    return errors;
+  }
+
   /// The mean of the errors `e` of edges around each vertex, by area, so that the sum over the
   /// whole mesh is right.
   template <typename Error>
   std::vector<double> around_vertices(std::span<const Edge> edges, Error&& error) const {
+    const std::vector<double> errors = of_edges(edges, error);
     std::vector<double> sum(state_.light.size()), area(state_.light.size());
-    for (const Edge& e : edges) {
-      const double share = error(e) * e.area;
-      for (const VertexId v : {e.a, e.b}) sum[v] += share, area[v] += e.area;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const Edge& e = edges[i];
+      for (const VertexId v : {e.a, e.b}) sum[v] += errors[i] * e.area, area[v] += e.area;
     }
     for (std::size_t v = 0; v < sum.size(); ++v) {
       if (area[v] > 0) sum[v] /= area[v];

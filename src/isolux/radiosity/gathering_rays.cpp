@@ -28,21 +28,26 @@ std::vector<double> Gathering::doubts() {
   const auto own = [&](VertexId v, double sigma) {
     return square(sigma) * std::pow(double(state_.light[v].row.cells()), kFall);
   };
-  std::vector<double> seen(state_.light.size());
+  const auto for_vertices = [&](const auto& body) {
+    parallel_for(state_.light.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) body(static_cast<VertexId>(v));
+    });
+  };
+  std::vector<double> seen(state_.light.size()), doubts(state_.light.size());
+  for_vertices([&](VertexId v) {
+    const VertexLight& light = state_.light[v];
+    if (light.gathers) seen[v] = own(v, light.indirect_deviation);
+  });
   for (const VertexId v : order()) {
     const VertexLight& light = state_.light[v];
-    if (light.gathers) {
-      seen[v] = own(v, light.indirect_deviation);
-    } else {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (light.among.weights[k] > 0) {
-          seen[v] += light.among.weights[k] * seen[light.among.vertices[k]];
-        }
+    if (light.gathers) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (light.among.weights[k] > 0) {
+        seen[v] += light.among.weights[k] * seen[light.among.vertices[k]];
       }
     }
   }
-  std::vector<double> doubts(seen.size());
-  for (VertexId v = 0; v < doubts.size(); ++v) {
+  for_vertices([&](VertexId v) {
     double sum = 0;
     const auto& triangles = mesh_.vertex(v).triangles;
     for (const TriangleId t : triangles) {
@@ -52,7 +57,7 @@ std::vector<double> Gathering::doubts() {
     doubts[v] = std::max({seen[v], sum / (3.0 * double(std::max<std::size_t>(triangles.size(), 1))),
                           light.gathers ? 0 : own(v, light.glimpse_deviation),
                           kLeastDoubt * square(luminance(light.indirect))});
-  }
+  });
   return doubts;
 }
 
