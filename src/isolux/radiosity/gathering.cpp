@@ -13,7 +13,10 @@
 namespace isolux {
 namespace {
 
-// The first solution is this rough, each next one finer by up to this factor.
+// No solution is worked for that is rougher than this, where the errors told would be less sure and
+// little time is saved. What only finds the way is this rough, each next one finer by up to this
+// factor.
+constexpr double kRoughest = 0.06;
 constexpr double kFirstTolerance = 0.08;
 constexpr double kLevelRatio = 8;
 
@@ -62,7 +65,7 @@ void Gathering::first_solution() {
   cover_options.seed = options_.seed;
   cover_options.keep_going = [this] { return keep_going(); };
   cover(mesh_, rays_, cover_options);
-  state_.level = std::max(options_.tolerance, kFirstTolerance);
+  state_.level = goal() < kRoughest ? kFirstTolerance : kRoughest;
   light_newborn();
   give_places(coarsen(mesh_, kSubsets));
   light_hidden();
@@ -72,15 +75,18 @@ void Gathering::first_solution() {
   estimate();
 }
 
+/// The tolerance that a solve works for, until its estimate is within what was asked for.
+double Gathering::goal() const { return std::min(options_.tolerance, kRoughest); }
+
 /// Whether a stricter level follows in any case: then this one only finds the way.
-bool Gathering::on_the_way() const { return state_.level > options_.tolerance && !full(); }
+bool Gathering::on_the_way() const { return state_.level > goal() && !full(); }
 
 /// Goes on to a stricter level; false where the goal is reached, or out of reach.
 bool Gathering::next_level() {
   constexpr int kMostTries = 6;
   constexpr double kTighter = 0.7, kBarely = 0.95;
   if (on_the_way()) {
-    state_.level = std::max(options_.tolerance, state_.level / kLevelRatio);
+    state_.level = std::max(goal(), state_.level / kLevelRatio);
     look_closer();
     return true;
   }

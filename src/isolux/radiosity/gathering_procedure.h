@@ -71,6 +71,7 @@ class Gathering {
 
   // The procedure
   void first_solution();
+  double goal() const;
   bool on_the_way() const;
   bool next_level();
   bool full() const;
