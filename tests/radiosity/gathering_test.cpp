@@ -216,5 +216,28 @@ objects:
   EXPECT_LT(std::ranges::count_if(solved.mesh.vertices(), above_the_lamp), 5);
 }
 
+TEST(Gathering, BlackBacksOfLampsMakeNoLight) {
+  // The room seems closed to few rays, and what the back of the lamp swallows is not made up for.
+  const char* const room = R"(
+materials: {{any: {{reflectance: {}}}}}
+objects:
+  - {{shape: {{box: {{lower: [-2, -2, 0], upper: [2, 2, 2.5], inward: true}}}}, material: any}}
+  - shape: {{parallelogram: {{corner: [-1.4, -0.4, 2.4], u: [0, 0.8, 0], v: [0.8, 0, 0]}}}}
+    material: any
+    sides: front
+    emission: {{exitance: 100}}
+)";
+  const char* const sheet = R"(
+  - shape: {parallelogram: {corner: [-0.6, -0.6, 0.003], u: [1.2, 0, 0], v: [0, 1.2, 0]}}
+    material: any
+    sides: front
+)";
+  for (const std::string& yaml :
+       {fmt::format(fmt::runtime(room), 0.8), fmt::format(fmt::runtime(room), 0.5) + sheet}) {
+    const Statistics s = solve(scene_of(yaml), to_tolerance(0.02)).statistics;
+    EXPECT_LT(std::abs(s.imbalance), 0.06 * s.emitted_flux);
+  }
+}
+
 }  // namespace
 }  // namespace isolux

@@ -53,6 +53,7 @@ struct Vertex : SurfacePoint {
                          ///< zero where it was not found out
   double error = 0;  ///< of the irradiance's luminance, lx: 95 in 100 are less wrong; 0: unknown
   bool on_light = false;
+  bool hidden = false;  ///< close under another sheet: it has the light of what is seen beside it
   std::vector<VertexId> neighbours;   ///< ends of the possible edges from here
   std::vector<TriangleId> triangles;  ///< the triangles around it
 

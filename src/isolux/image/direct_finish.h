@@ -20,7 +20,8 @@ class DirectFinish {
 
  private:
   DirectLight lights_;
-  std::vector<Rgb> direct_;  // E_d by vertex, lx
+  std::vector<char> hidden_;  // by vertex
+  std::vector<Rgb> direct_;   // E_d by vertex, lx
 };
 
 }  // namespace isolux

@@ -62,7 +62,8 @@ SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
 SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
                                         const std::optional<MeshHit>& paired) const {
   SurfaceSample sample{SampleKind::interpolated, {}, paired, {hit.point, hit.normal}};
-  sample.place = lookup_->covering(hit.point, hit.normal);
+  const std::optional<SurfaceHit> met = hit;
+  lookup_->covering({&met, 1}, {&sample.place, 1});
   if (!sample.place) {
     sample.kind = SampleKind::extrapolated;
     sample.place = lookup_->nearest(hit.point, hit.normal);

@@ -16,7 +16,7 @@ namespace {
 // No solution is worked for that is rougher than this, where the errors told would be less sure and
 // little time is saved. What only finds the way is this rough, each next one finer by up to this
 // factor.
-constexpr double kRoughest = 0.06;
+constexpr double kRoughest = 0.05;
 constexpr double kFirstTolerance = 0.08;
 constexpr double kLevelRatio = 8;
 
@@ -145,16 +145,19 @@ double Gathering::variance_of(VertexId v) const {
 }
 
 /// Of what is interpolated over a triangle, on average and relative to what errors are held
-/// against: (Σ σ² + Σ cov) / 6. Chances of vertices that gather by themselves are independent; of
-/// others they are taken to be as alike as can be.
+/// against: (Σ σ² + Σ cov) / 6. Chances of E_d, and of E_i at vertices that gather by themselves,
+/// are independent; of E_i at others, and at hidden ones, they are taken to be as alike as can be.
 double Gathering::mean_variance(const Triangle& triangle) const {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexId v = triangle.vertices[k], w = triangle.vertices[(k + 1) % 3];
     sum += variance_of(v) / square(scale(v));
-    if (state_.light[v].gathers && state_.light[w].gathers) continue;
-    sum += state_.light[v].indirect_deviation / scale(v) * state_.light[w].indirect_deviation /
-           scale(w);
+    if (mesh_.vertex(v).hidden || mesh_.vertex(w).hidden) {
+      sum += std::sqrt(variance_of(v) * variance_of(w)) / (scale(v) * scale(w));
+    } else if (!state_.light[v].gathers || !state_.light[w].gathers) {
+      sum += state_.light[v].indirect_deviation / scale(v) * state_.light[w].indirect_deviation /
+             scale(w);
+    }
   }
   return sum / 6;
 }

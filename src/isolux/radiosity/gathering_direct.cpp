@@ -78,7 +78,7 @@ void Gathering::look_closer() {
   std::vector<VertexId> open;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     const VertexLight& light = state_.light[v];
-    if (!light.hidden && too_open(light.direct_deviation, scale(v))) open.push_back(v);
+    if (!mesh_.vertex(v).hidden && too_open(light.direct_deviation, scale(v))) open.push_back(v);
   }
   light_directly(open);
   light_hidden();

@@ -27,13 +27,14 @@ bool Gathering::hidden(const SurfacePoint& middle, const Edge& edge) const {
   const Vertex &a = mesh_.vertex(edge.a), &b = mesh_.vertex(edge.b);
   const double far = kCloseToEdge * distance(a.position, b.position);
   if (!covered(middle, far)) return false;
-  if (state_.light[edge.a].hidden || state_.light[edge.b].hidden) return true;
+  if (a.hidden || b.hidden) return true;
   return !covered(a, far) && !covered(b, far);
 }
 
-/// By vertex: of those that lie hidden but have neighbours under no cover at all, up to three of
-/// these. Their triangles reach out from under the sheet that covers them, as on a ceiling over a
-/// lamp, and would be seen to be dark. Where bodies touch, neighbours are covered too.
+/// By vertex: of those that lie hidden but have neighbours that nothing covers nearer than they
+/// are, up to three of these. Their triangles reach out from under the sheet that covers them, as
+/// on a ceiling over a lamp, and would be seen to be dark. Where bodies touch, neighbours are
+/// covered too.
 std::vector<MeshPlace> Gathering::seen_beside_hidden() {
   constexpr double kFacing = 0.7;  // cosine
   std::vector<char> dark(mesh_.vertices().size());
@@ -75,29 +76,29 @@ void Gathering::give_places(const Coarsening& subsets) {
   constexpr double kMost = 0.5;
   const std::vector<MeshPlace> beside = seen_beside_hidden();
   for (VertexId v = 0; v < beside.size(); ++v) {
-    state_.light[v].hidden = beside[v].weights[0] > 0;
+    mesh_.vertex(v).hidden = beside[v].weights[0] > 0;
   }
   for (const VertexId v : subsets.order) {
-    if (state_.light[v].hidden) continue;
+    if (mesh_.vertex(v).hidden) continue;
     MeshPlace among = subsets.places[v];
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (state_.light[among.vertices[k]].hidden) among.weights[k] = 0;
+      if (mesh_.vertex(among.vertices[k]).hidden) among.weights[k] = 0;
       sum += among.weights[k];
     }
     for (double& weight : among.weights) weight = sum > kMost ? weight / sum : 0;
     state_.give_parents(v, among);
   }
   for (VertexId v = 0; v < beside.size(); ++v) {
-    if (state_.light[v].hidden) state_.give_parents(v, beside[v]);
+    if (mesh_.vertex(v).hidden) state_.give_parents(v, beside[v]);
   }
 }
 
 /// E_d of hidden vertices, from those that are seen beside them.
 void Gathering::light_hidden() {
   for (VertexId v = 0; v < state_.light.size(); ++v) {
+    if (!mesh_.vertex(v).hidden) continue;
     VertexLight& light = state_.light[v];
-    if (!light.hidden) continue;
     light.direct = {};
     double variance = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -143,7 +143,7 @@ std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
     const VertexId v = open.back();
     open.pop_back();
     const VertexLight& light = state_.light[v];
-    if (!light.hidden && 2 * light.own_bend >= light.bend) {
+    if (!mesh_.vertex(v).hidden && 2 * light.own_bend >= light.bend) {
       doubtful.push_back(v);
       continue;
     }
@@ -329,9 +329,11 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     const double noise = square(gathered[i].error) +
                          (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
     const double rule = square(state_.edge_scale * usual_bend(edge.a, edge.b));
-    // What is likely: the rule's, as far as noise hides what was found.
+    // What is likely: less than was found as far as noise hides it, and how sure that is.
     const double likely = rule > 0 ? e * rule / (rule + noise) : 0;
-    state_.indirect_error[edge.key()] = static_cast<float>(likely);
+    const double unsure = rule > 0 ? rule * noise / (rule + noise) : 0;
+    state_.indirect_error[edge.key()] =
+        static_cast<float>(std::copysign(std::sqrt(square(likely) + unsure), e));
     findings.push_back({rule * edge.area, (e * e - noise) * edge.area, noise * edge.area});
     if (cost(edge, likely) <= allowed && !stands_out(edge, likely)) continue;
     costly.push_back(i);
@@ -354,7 +356,7 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   }
 }
 
-/// e of E_i in the middle of an edge: as it was found; or as a rule, and then of either sign; where
+/// e of E_i in the middle of an edge: as it was found; or as a rule, taken to be positive; where
 /// E_i of an end is interpolated already, what that costs.
 double Gathering::indirect_error(const Edge& e) const {
   const auto known = state_.indirect_error.find(e.key());

@@ -252,7 +252,7 @@ class Gathering {
   /// A third of the triangles at a vertex: their area, m², and what they emit, lm; of that, what
   /// reaches others by hemisphere rays.
   struct Share {
-    double area = 0;
+    double area = 0, seen = 0;  // m²: of triangles, and as far as light reaches them
     Rgb emitted, emitted_to_rays;
   };
   std::vector<Share> shares_;  // by vertex, as of share_out()

@@ -260,7 +260,7 @@ void Gathering::glimpse() {
   std::vector<VertexId> blind;
   std::vector<RowRequest> requests;
   for (VertexId v = 0; v < state_.light.size(); ++v) {
-    if (state_.light[v].hidden || !state_.light[v].row.empty()) continue;
+    if (mesh_.vertex(v).hidden || !state_.light[v].row.empty()) continue;
     const Vertex& vertex = mesh_.vertex(v);
     blind.push_back(v);
     requests.push_back({{vertex.gather_point, vertex.normal}, kFewRays, v});

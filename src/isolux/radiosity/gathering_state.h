@@ -29,8 +29,7 @@ struct VertexLight {
                             // gather: those it lies among, all of them less deep
   std::uint32_t depth = 0;  // 0: it has none, and gathers
   bool gathers = false;
-  bool hidden = false;  // close under another sheet: it has the light of what is seen beside it
-  Row<Link> row;        // where it gathers; few where it does not, for a glimpse
+  Row<Link> row;  // where it gathers; few where it does not, for a glimpse
 };
 
 /// E_d in the middle of an edge. In single precision, for there are many.

@@ -69,7 +69,7 @@ void Gathering::foresee_bends(VertexId first) {
   parallel_for(state_.light.size() - first, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = first + begin; v < first + end; ++v) {
       VertexLight& light = state_.light[v];
-      if (light.gathers || light.hidden) continue;
+      if (light.gathers || mesh_.vertex(VertexId(v)).hidden) continue;
       light.own_bend = std::max(rule_bend(VertexId(v)), bend_beside(VertexId(v)));
       if (light.row.empty()) continue;
       const Gathered rough = gather(light.row);
@@ -149,6 +149,7 @@ void Gathering::transfer(bool rough) {
 
 /// What of the mesh counts by each vertex.
 void Gathering::share_out() {
+  constexpr double kSeen = 0.5;  // of triangles that reach out from under a sheet
   shares_.assign(state_.light.size(), {});
   for (const Triangle& triangle : mesh_.triangles()) {
     if (!triangle.alive) continue;
@@ -157,6 +158,7 @@ void Gathering::share_out() {
     const Rgb emitted = triangle.emission * part;
     for (const VertexId v : triangle.vertices) {
       shares_[v].area += part;
+      shares_[v].seen += mesh_.vertex(v).hidden ? kSeen * part : part;
       shares_[v].emitted += emitted;
       if (!lights_.separate()[object]) shares_[v].emitted_to_rays += emitted;
     }
@@ -164,26 +166,31 @@ void Gathering::share_out() {
 }
 
 /// In a closed scene all that is sent arrives: where interpolation gives a little more or less,
-/// E_i is put right as a whole.
+/// E_i is put right as a whole, by no more than some per cent.
 void Gathering::balance_indirect() {
   constexpr double kClosed = 1e-3;  // of the light sent, lost at most
+  constexpr double kMost = 1.1;
   Rgb sent, received;
   double lost = 0;
   for (VertexId v = 0; v < shares_.size(); ++v) {
     const VertexLight& light = state_.light[v];
     const Share& share = shares_[v];
     const Rgb flux =
-        share.emitted_to_rays + mesh_.vertex(v).reflectance * state_.sent[v] * share.area;
+        share.emitted_to_rays + mesh_.vertex(v).reflectance * state_.sent[v] * share.seen;
     const double l = luminance(light.indirect);
     sent += flux;
     lost += luminance(flux) * light.escaped;
-    received += light.indirect * (l > 0 ? share.area * (1 - indirect_excess_[v] / l) : 0);
+    received += light.indirect * (l > 0 ? share.seen * (1 - indirect_excess_[v] / l) : 0);
   }
-  if (!(lost <= kClosed * luminance(sent))) return;
-  const auto factor = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.9, 1.1) : 1; };
-  const Rgb more{factor(sent.r, received.r), factor(sent.g, received.g),
-                 factor(sent.b, received.b)};
-  state_.balance = state_.balance * more;
+  const Rgb before = state_.balance;
+  const bool closed = lost <= kClosed * luminance(sent);
+  const auto balanced = [&](double now, double out, double in) {
+    return closed && in > 0 ? std::clamp(now * out / in, 1 / kMost, kMost) : 1;
+  };
+  state_.balance = {balanced(before.r, sent.r, received.r), balanced(before.g, sent.g, received.g),
+                    balanced(before.b, sent.b, received.b)};
+  const Rgb more{state_.balance.r / before.r, state_.balance.g / before.g,
+                 state_.balance.b / before.b};
   for (VertexLight& light : state_.light) light.indirect = light.indirect * more;
 }
 
@@ -193,12 +200,12 @@ void Gathering::settle_energy(std::span<const Rgb> old) {
   for (VertexId v = 0; v < shares_.size(); ++v) {
     const Share& share = shares_[v];
     const Rgb& rho = mesh_.vertex(v).reflectance;
-    const Rgb received = state_.sent[v] * share.area;
+    const Rgb received = state_.sent[v] * share.seen;
     total += share.area;
     incident += luminance(received);
     absorbed += luminance((gray(1) - rho) * received);
     escaped += luminance(rho * received + share.emitted) * state_.light[v].escaped;
-    unshot += std::abs(luminance(rho * (state_.sent[v] - old[v]))) * share.area;
+    unshot += std::abs(luminance(rho * (state_.sent[v] - old[v]))) * share.seen;
   }
   state_.statistics.absorbed_flux = absorbed;
   state_.statistics.escaped_flux = escaped;

@@ -120,8 +120,14 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
   const Shape& shape = *primitive.object->shape;
   const bool together = query.block && shape.part_count() == 1 &&
                         std::count(args->valid, args->valid + args->N, -1) > kFew;
-  SegmentBlock::Mask blocked{};
-  if (together) shape.occlude(*query.block, kSegmentEnd, blocked);
+  SegmentBlock::Mask blocked;
+  if (together) {
+    blocked.fill(1);  // those are not asked for
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+      if (args->valid[lane]) blocked[RTCRayN_id(args->ray, args->N, lane)] = 0;
+    }
+    shape.occlude(*query.block, kSegmentEnd, blocked);
+  }
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (!args->valid[lane]) continue;
     const unsigned id = RTCRayN_id(args->ray, args->N, lane);

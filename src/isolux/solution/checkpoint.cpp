@@ -34,7 +34,7 @@ struct PackedVertex {
   double error = 0;
   SurfaceId surface;
   std::uint32_t on_light = 0, neighbours = 0, triangles = 0;  // lengths of lists, the last two
-  std::uint32_t unused = 0;
+  std::uint32_t hidden = 0;
 };
 
 struct PackedTriangle {
@@ -50,8 +50,7 @@ struct PackedLight {
   double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0,
          excess = 0, glimpse = 0, glimpse_deviation = 0;
   MeshPlace among;
-  std::uint32_t depth = 0, grid = 0, divided = 0;
-  std::uint16_t gathers = 0, hidden = 0;
+  std::uint32_t depth = 0, gathers = 0, grid = 0, divided = 0;
   std::uint64_t links = 0;
 };
 
@@ -118,7 +117,7 @@ json mesh_to_json(const Triangulation& mesh) {
     vertices.push_back({v.position, v.normal, v.gather_point, v.reflectance, v.irradiance,
                         v.delta_irradiance, v.mean_irradiance, v.error, v.surface, v.on_light,
                         static_cast<std::uint32_t>(v.neighbours.size()),
-                        static_cast<std::uint32_t>(v.triangles.size())});
+                        static_cast<std::uint32_t>(v.triangles.size()), v.hidden});
     neighbours.insert(neighbours.end(), v.neighbours.begin(), v.neighbours.end());
     around.insert(around.end(), v.triangles.begin(), v.triangles.end());
   }
@@ -148,6 +147,7 @@ Triangulation mesh_from_json(const json& object, const Rules& rules, const Bound
     v.mean_irradiance = p.mean_irradiance;
     v.error = p.error;
     v.on_light = p.on_light != 0;
+    v.hidden = p.hidden != 0;
     v.neighbours = take(neighbours, next_neighbour, p.neighbours, "neighbours");
     v.triangles = take(around, next_around, p.triangles, "around");
     vertices.push_back(std::move(v));
@@ -182,9 +182,8 @@ json state_to_json(const GatheringState& state) {
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend,
                       l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among, l.depth,
-                      static_cast<std::uint32_t>(l.row.grid),
-                      static_cast<std::uint32_t>(l.row.divided.size()), l.gathers, l.hidden,
-                      l.row.rays.size()});
+                      l.gathers, static_cast<std::uint32_t>(l.row.grid),
+                      static_cast<std::uint32_t>(l.row.divided.size()), l.row.rays.size()});
     links.insert(links.end(), l.row.rays.begin(), l.row.rays.end());
     divided.insert(divided.end(), l.row.divided.begin(), l.row.divided.end());
   }
@@ -251,7 +250,6 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
          p.among,
          p.depth,
          p.gathers != 0,
-         p.hidden != 0,
          {static_cast<int>(p.grid), take(divided, next_divided, p.divided, "divided"),
           take(links, next, p.links, "links")}});
     check(state.light.back().row);

@@ -87,6 +87,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
   const auto reflectance = array<float>(glb, attributes, "_REFLECTANCE", 3, n);
   const auto object = array<float>(glb, attributes, "_OBJECT", 1, n);
   const auto face = array<float>(glb, attributes, "_FACE", 1, n);
+  const auto hidden = array<float>(glb, attributes, "_HIDDEN", 1, n);
 
   const Bounds bounds = scene.bounds();
   const double slack = 1e-3 * bounds.diagonal();
@@ -101,6 +102,7 @@ std::vector<Vertex> read_vertices(const Glb& glb, const Scene& scene) {
     v.reflectance = rgb_at(reflectance, i);
     v.surface.object = index_at(object, i, static_cast<double>(scene.objects.size()), "object");
     v.surface.face = index_at(face, i, 1 << 25, "face");
+    v.hidden = hidden[i] != 0;
     Bounds with_vertex = bounds;
     with_vertex.include(v.position);
     if (with_vertex.diagonal() > bounds.diagonal() + slack) {

@@ -96,7 +96,7 @@ int add_colors(Glb& glb, const Triangulation& mesh) {
 }
 
 json add_attributes(Glb& glb, const Triangulation& mesh) {
-  Array normal, radiosity, irradiance, mean, error, reflectance, object, face;
+  Array normal, radiosity, irradiance, mean, error, reflectance, object, face, hidden;
   for (const Vertex& v : mesh.vertices()) {
     if (std::max(v.surface.object, v.surface.face) > 1u << 24) {
       throw InputError("can't be saved: a surface has a number beyond 2^24");
@@ -109,6 +109,7 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
     reflectance.add(v.reflectance);
     object.add(v.surface.object);
     face.add(v.surface.face);
+    hidden.add(v.hidden);
   }
   const auto add = [&](const Array& array, int components) {
     return add_array<float>(glb, array.numbers, components, BufferTarget::vertices);
@@ -122,7 +123,8 @@ json add_attributes(Glb& glb, const Triangulation& mesh) {
           {"_ERROR", add(error, 1)},
           {"_REFLECTANCE", add(reflectance, 3)},
           {"_OBJECT", add(object, 1)},
-          {"_FACE", add(face, 1)}};
+          {"_FACE", add(face, 1)},
+          {"_HIDDEN", add(hidden, 1)}};
 }
 
 /// Adds indices and what is kept per triangle; returns the accessors' numbers by name.
