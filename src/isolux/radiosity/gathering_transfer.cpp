@@ -158,9 +158,10 @@ void Gathering::share_out() {
     const Rgb emitted = triangle.emission * part;
     for (const VertexId v : triangle.vertices) {
       shares_[v].area += part;
-      shares_[v].seen += mesh_.vertex(v).hidden ? kSeen * part : part;
+      const double seen = mesh_.vertex(v).hidden ? kSeen : 1;
+      shares_[v].seen += seen * part;
       shares_[v].emitted += emitted;
-      if (!lights_.separate()[object]) shares_[v].emitted_to_rays += emitted;
+      if (!lights_.separate()[object]) shares_[v].emitted_to_rays += emitted * seen;
     }
   }
 }
