@@ -29,9 +29,9 @@ void DirectFinish::apply(std::span<SurfaceSample> samples) const {
   lights_.irradiance(receivers, irradiance, deviation);
   for (std::size_t i = 0; i < lit.size(); ++i) {
     const auto& [vertices, weights] = *lit[i]->place;
+    // Hidden vertices have the E_d of places beside them: that of the others tells.
     Rgb interpolated;
-    double seen =
-        0;  // hidden vertices have the E_d of places beside them: that of the others tells
+    double seen = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if (hidden_[vertices[k]]) continue;
       interpolated += direct_[vertices[k]] * weights[k];

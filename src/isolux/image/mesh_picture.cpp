@@ -37,9 +37,9 @@ Picture mesh_picture(const Solution& solution, const Camera& camera, const Rende
     return [&, scratch](std::span<const Ray> rays, double pixel_angle) {
       int on_lines = 0;
       for (const Ray& ray : rays) {
-        const SurfaceSample sample = sampler.sample(ray, *scratch);
-        if (!sample.mesh) continue;
-        const double angle = angle_to_sides(solution.mesh, sample.mesh->triangle, ray);
+        const std::optional<MeshHit> mesh = sampler.triangle(ray, *scratch);
+        if (!mesh) continue;
+        const double angle = angle_to_sides(solution.mesh, mesh->triangle, ray);
         on_lines += angle < kHalfWidth * pixel_angle;
       }
       return gray(on_lines / static_cast<double>(rays.size()));

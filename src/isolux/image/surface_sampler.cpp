@@ -34,34 +34,32 @@ SurfaceSampler::SurfaceSampler(const Solution& solution)
 SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
   const std::optional<SurfaceHit> hit = rays_.nearest(ray);
   if (!hit) return {};
-  if (dot(hit->normal, ray.direction) >= 0) return {SampleKind::dark, {}, {}};
+  if (dot(hit->normal, ray.direction) >= 0) return {SampleKind::dark, {}};
 
   const Scene& scene = solution_.scene;
   const Object& object = scene.objects[hit->surface.object];
   const Rgb reflectance = scene.material_of(hit->surface.object).reflectance;
   const Rgb emission = hit->back ? Rgb{} : object.exitance;
-  const std::optional<MeshHit> mesh = paired(ray, *hit, scratch);
   if (lookup_) {
-    SurfaceSample sample = looked_up(*hit, mesh);
+    SurfaceSample sample = looked_up(*hit);
     sample.exitance = emission + reflectance * sample.exitance;
     sample.reflectance = reflectance;
     return sample;
   }
-  if (mesh) {
+  if (const std::optional<MeshHit> mesh = paired(ray, *hit, scratch)) {
     const Rgb irradiance = interpolate_irradiance(
         solution_.mesh, place_in(solution_.mesh, mesh->triangle, ray.at(mesh->t)));
-    return {SampleKind::interpolated, emission + reflectance * irradiance, mesh};
+    return {SampleKind::interpolated, emission + reflectance * irradiance};
   }
   const SurfacePoint point{hit->point, hit->normal, hit->surface, reflectance};
   const std::optional<Rgb> irradiance = extrapolated(point, scratch);
-  if (!irradiance) return {SampleKind::dark, emission, {}};
-  return {SampleKind::extrapolated, emission + reflectance * *irradiance, {}};
+  if (!irradiance) return {SampleKind::dark, emission};
+  return {SampleKind::extrapolated, emission + reflectance * *irradiance};
 }
 
 /// The irradiance, in place of the exitance, at a point of a mesh by gathering.
-SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
-                                        const std::optional<MeshHit>& paired) const {
-  SurfaceSample sample{SampleKind::interpolated, {}, paired, {hit.point, hit.normal}};
+SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit) const {
+  SurfaceSample sample{SampleKind::interpolated, {}, {hit.point, hit.normal}};
   const std::optional<SurfaceHit> met = hit;
   lookup_->covering({&met, 1}, {&sample.place, 1});
   if (!sample.place) {
@@ -74,6 +72,12 @@ SurfaceSample SurfaceSampler::looked_up(const SurfaceHit& hit,
   }
   sample.exitance = interpolate_irradiance(solution_.mesh, *sample.place);
   return sample;
+}
+
+std::optional<MeshHit> SurfaceSampler::triangle(const Ray& ray, Scratch& scratch) const {
+  const std::optional<SurfaceHit> hit = rays_.nearest(ray);
+  if (!hit || dot(hit->normal, ray.direction) >= 0) return std::nullopt;
+  return paired(ray, *hit, scratch);
 }
 
 std::optional<MeshHit> SurfaceSampler::paired(const Ray& ray, const SurfaceHit& hit,

@@ -23,8 +23,7 @@ enum class SampleKind {
 /// What a ray sees.
 struct SurfaceSample {
   SampleKind kind = SampleKind::background;
-  Rgb exitance;                 ///< lm/m²: emitted and reflected by the true surface
-  std::optional<MeshHit> mesh;  ///< the triangle paired with the surface
+  Rgb exitance;  ///< lm/m²: emitted and reflected by the true surface
   /// Of a solution by gathering, where light was found: the point, its reflectance, and the
   /// vertices that its light is interpolated from.
   Receiver receiver = {};
@@ -50,10 +49,14 @@ class SurfaceSampler {
   /// `ray` has a direction of length 1.
   SurfaceSample sample(const Ray& ray, Scratch& scratch) const;
 
+  /// Where `ray`, of a direction of length 1, meets the triangle that is paired with the surface it
+  /// sees (§4); nothing where none is, or the surface is black.
+  std::optional<MeshHit> triangle(const Ray& ray, Scratch& scratch) const;
+
  private:
   std::optional<MeshHit> paired(const Ray& ray, const SurfaceHit& hit, Scratch& scratch) const;
   std::optional<Rgb> extrapolated(const SurfacePoint& point, Scratch& scratch) const;
-  SurfaceSample looked_up(const SurfaceHit& hit, const std::optional<MeshHit>& paired) const;
+  SurfaceSample looked_up(const SurfaceHit& hit) const;
   std::optional<Rgb> stand_ins(const SurfacePoint& point, std::vector<VertexId>& near) const;
 
   const Solution& solution_;

@@ -73,7 +73,7 @@ std::vector<MeshPlace> Gathering::seen_beside_hidden() {
 
 /// Lets vertices lie among those of coarser subsets, and hidden ones among those seen beside them.
 void Gathering::give_places(const Coarsening& subsets) {
-  constexpr double kMost = 0.5;
+  constexpr double kEnough = 0.5;  // of the weights left, or it gathers by itself
   const std::vector<MeshPlace> beside = seen_beside_hidden();
   for (VertexId v = 0; v < beside.size(); ++v) {
     mesh_.vertex(v).hidden = beside[v].weights[0] > 0;
@@ -86,7 +86,7 @@ void Gathering::give_places(const Coarsening& subsets) {
       if (mesh_.vertex(among.vertices[k]).hidden) among.weights[k] = 0;
       sum += among.weights[k];
     }
-    for (double& weight : among.weights) weight = sum > kMost ? weight / sum : 0;
+    for (double& weight : among.weights) weight = sum > kEnough ? weight / sum : 0;
     state_.give_parents(v, among);
   }
   for (VertexId v = 0; v < beside.size(); ++v) {
