@@ -198,8 +198,10 @@ void Gathering::finish() {
     settle_energy(std::vector<Rgb>(state_.sent.size()));
   }
   const std::vector<double> interpolation =
-      around_vertices(living_edges(mesh_),
-                      [&](const Edge& e) { return direct_bend(e) + std::abs(indirect_error(e)); });
+      around_vertices(living_edges(mesh_), [&](const Edge& e) {
+        const auto [likely, variance] = indirect_error(e);
+        return direct_bend(e) + std::sqrt(square(likely) + variance);
+      });
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     Vertex& vertex = mesh_.vertex(v);
     vertex.irradiance = irradiance(v);

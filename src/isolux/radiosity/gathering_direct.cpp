@@ -249,7 +249,7 @@ double Gathering::direct_mean_square(std::span<const Edge> edges, std::span<cons
   state_.narrow_mean_square = narrow / area();
   return mean_square([&](const Edge& e) {
     const double error = direct_error(e);
-    return error == 0 || hairline(e) ? 0 : error / scale(e);
+    return EdgeError{error == 0 || hairline(e) ? 0 : error / scale(e)};
   });
 }
 
@@ -325,7 +325,7 @@ void Gathering::split(std::span<const Edge> edges, std::span<const Middle> middl
     }
     ++state_.statistics.split;
     state_.split_since[edges[i].key()] =
-        static_cast<float>(std::abs(direct_error(edges[i]) + known_indirect_error(edges[i])));
+        static_cast<float>(std::abs(direct_error(edges[i]) + likely_indirect_error(edges[i])));
     state_.light.resize(mesh_.vertices().size());
     state_.sent.resize(mesh_.vertices().size());
     VertexLight& light = state_.light[*v];

@@ -103,7 +103,7 @@ void Gathering::refine_indirect() {
   constexpr int kMostRounds = 24;
   constexpr std::size_t kFew = 500;  // edges for each place that is not worth another round
   const double target = square(kIndirectShare * state_.level) * area();
-  state_.indirect_error.clear();
+  state_.indirect_findings.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     const std::vector<Edge> edges = living_edges(mesh_);
     const std::vector<VertexId> doubtful = doubtful_vertices(kVerticesPart * target);
@@ -163,7 +163,7 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     const Edge& e = edges[i];
     if (!state_.light[e.a].gathers || !state_.light[e.b].gathers) continue;
-    if (state_.indirect_error.contains(e.key())) continue;
+    if (state_.indirect_findings.contains(e.key())) continue;
     ranked.emplace_back(cost(e, state_.edge_scale * usual_bend(e.a, e.b)), i);
   }
   std::sort(ranked.begin(), ranked.end(), std::greater<>());
@@ -242,7 +242,7 @@ std::vector<double> Gathering::areas_around() const {
 /// foreseen: they tell, one half of all that was.
 void Gathering::learn(double& rule_scale, std::vector<Finding> findings) {
   constexpr std::size_t kFewest = 16;
-  constexpr double kMargin = 1.3;
+  constexpr double kMargin = 1.3, kSure = 0.5;
   if (findings.size() < kFewest) return;
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.foreseen < b.foreseen; });
@@ -253,10 +253,12 @@ void Gathering::learn(double& rule_scale, std::vector<Finding> findings) {
     foreseen += f.foreseen, found += f.found, noise += square(f.noise);
   }
   if (!(foreseen > 0)) return;
-  // The square of something normal has twice the square of its variance as its own.
-  const double at_most = std::max(0.0, found) + std::sqrt(2 * noise);
+  // The square of something normal has twice the square of its variance as its own. As far as that
+  // hides what was found, the rule stays.
+  const double unsure = 2 * noise / square(kSure * foreseen);
+  const double ratio = (std::max(0.0, kMargin * found / foreseen) + unsure) / (1 + unsure);
   // Half of the way, since what is looked at from one round to the next is not alike.
-  const double factor = std::sqrt(kMargin * std::sqrt(at_most / foreseen));
+  const double factor = std::sqrt(std::sqrt(ratio));
   rule_scale = std::clamp(rule_scale * std::clamp(factor, 0.7, 1.4), 0.1, 1.5);
 }
 
@@ -320,7 +322,7 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
     const Edge& edge = suspect[i];
     if (rows[i].links.empty()) {
-      state_.indirect_error[edge.key()] = 0;
+      state_.indirect_findings[edge.key()] = {};
       continue;
     }
     gathered[i] = gather(rows[i].links);
@@ -329,17 +331,18 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     const double noise = square(gathered[i].error) +
                          (square(a.indirect_deviation) + square(b.indirect_deviation)) / 4;
     const double rule = square(state_.edge_scale * usual_bend(edge.a, edge.b));
-    // What is likely: less than was found as far as noise hides it, and how sure that is.
-    const double likely = rule > 0 ? e * rule / (rule + noise) : 0;
-    const double unsure = rule > 0 ? rule * noise / (rule + noise) : 0;
-    state_.indirect_error[edge.key()] =
-        static_cast<float>(std::copysign(std::sqrt(square(likely) + unsure), e));
+    state_.indirect_findings[edge.key()] = {static_cast<float>(e),
+                                            static_cast<float>(std::sqrt(noise))};
     findings.push_back({rule * edge.area, (e * e - noise) * edge.area, noise * edge.area});
-    if (cost(edge, likely) <= allowed && !stands_out(edge, likely)) continue;
-    costly.push_back(i);
-    to_split.push_back(edge);
   }
   learn(state_.edge_scale, std::move(findings));
+  for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
+    if (rows[i].links.empty()) continue;
+    const double likely = likely_indirect_error(suspect[i]);
+    if (cost(suspect[i], likely) <= allowed && !stands_out(suspect[i], likely)) continue;
+    costly.push_back(i);
+    to_split.push_back(suspect[i]);
+  }
 
   const std::vector<Edge> longer = longer_sides(to_split);
   split(longer, middles_of(longer));
@@ -356,19 +359,33 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   }
 }
 
-/// e of E_i in the middle of an edge: as it was found; or as a rule, taken to be positive; where
-/// E_i of an end is interpolated already, what that costs.
-double Gathering::indirect_error(const Edge& e) const {
-  const auto known = state_.indirect_error.find(e.key());
-  if (known != state_.indirect_error.end()) return known->second;
+/// e of E_i in the middle of an edge. Where it was looked at: less than was found as far as noise
+/// hides it, the rule telling how much is to be expected. Else as a rule, taken to be positive; or
+/// what interpolating E_i at its ends costs.
+Gathering::EdgeError Gathering::indirect_error(const Edge& e) const {
   const VertexLight &a = state_.light[e.a], &b = state_.light[e.b];
-  if (a.gathers && b.gathers) return state_.edge_scale * usual_bend(e.a, e.b);
-  return (a.bend + b.bend) / 2;
+  const auto found = state_.indirect_findings.find(e.key());
+  if (found == state_.indirect_findings.end()) {
+    if (a.gathers && b.gathers) return {state_.edge_scale * usual_bend(e.a, e.b)};
+    return {(a.bend + b.bend) / 2};
+  }
+  const double rule = square(state_.edge_scale * usual_bend(e.a, e.b));
+  const double noise = square(found->second.deviation);
+  if (rule == 0) return {};
+  return {found->second.error * rule / (rule + noise), rule * noise / (rule + noise)};
+}
+
+/// The same as far as it was looked at.
+double Gathering::likely_indirect_error(const Edge& e) const {
+  return state_.indirect_findings.contains(e.key()) ? indirect_error(e).likely : 0;
 }
 
 /// What interpolation of E_i costs, relative.
 double Gathering::indirect_mean_square() const {
-  return mean_square([&](const Edge& e) { return indirect_error(e) / scale(e); });
+  return mean_square([&](const Edge& e) {
+    const auto [likely, variance] = indirect_error(e);
+    return EdgeError{likely / scale(e), variance / square(scale(e))};
+  });
 }
 
 }  // namespace isolux

@@ -48,6 +48,13 @@ class Gathering {
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
   static constexpr double kMeanSquare = 16.0 / 45;
 
+  /// What interpolation may be off by in the middle of an edge: what is likely, and the variance of
+  /// that.
+  struct EdgeError {
+    double likely = 0;
+    double variance = 0;
+  };
+
   /// The mean over all surfaces of the square of what interpolation is off by, for the errors
   /// error(edge), relative to what they are held against, in the middles of edges.
   template <typename Error>
@@ -61,8 +68,10 @@ class Gathering {
           return error(v < w ? Edge{v, w, 0} : Edge{w, v, 0});
         };
         const auto& [a, b, c] = triangles[i].vertices;
-        const double e = between(a, b), f = between(b, c), g = between(c, a);
-        const double sum = e * e + f * f + g * g + e * f + f * g + g * e;
+        const auto [e, u] = between(a, b);
+        const auto [f, v] = between(b, c);
+        const auto [g, w] = between(c, a);
+        const double sum = e * e + f * f + g * g + e * f + f * g + g * e + u + v + w;
         squares[i] = kMeanSquare / 2 * sum * triangles[i].area;
       }
     });
@@ -176,7 +185,8 @@ class Gathering {
   double most_bend(VertexId v) const;
   double leniency(double area) const;
   bool stands_out(const Edge& edge, double e) const;
-  double indirect_error(const Edge& e) const;
+  EdgeError indirect_error(const Edge& e) const;
+  double likely_indirect_error(const Edge& e) const;
   double indirect_mean_square() const;
 
   Rgb irradiance(VertexId v) const { return state_.light[v].direct + state_.light[v].indirect; }
@@ -206,10 +216,6 @@ class Gathering {
   double direct_error(const Edge& e) const {
     const auto at = state_.middles.find(e.key());
     return at == state_.middles.end() ? 0 : at->second.error;
-  }
-  double known_indirect_error(const Edge& e) const {
-    const auto at = state_.indirect_error.find(e.key());
-    return at == state_.indirect_error.end() ? 0 : at->second;
   }
 
   template <typename Error>

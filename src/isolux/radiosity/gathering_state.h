@@ -39,6 +39,13 @@ struct MiddleLight {
   float error = 0;                // of interpolation there, lx, positive where it is too bright
 };
 
+/// What interpolating E_i in the middle of an edge was found to be off by, lx, positive where it is
+/// too bright, and σ of what was found.
+struct EdgeFinding {
+  float error = 0;
+  float deviation = 0;
+};
+
 /// What gathering knows between two of its rounds: enough to go on from there.
 struct GatheringState {
   explicit GatheringState(Triangulation triangulation) : mesh(std::move(triangulation)) {}
@@ -60,8 +67,7 @@ struct GatheringState {
   std::vector<Rgb> sent;           // E by vertex as its triangles have it on average, lx
   /// What was found in the middle of edges, by the ends a < b: a × 2³² + b.
   std::unordered_map<std::uint64_t, MiddleLight> middles;
-  /// The errors of interpolating E_i there, lx, positive where it is too bright.
-  std::unordered_map<std::uint64_t, float> indirect_error;
+  std::unordered_map<std::uint64_t, EdgeFinding> indirect_findings;
   /// Edges that were split since links were last made or found good, and their |e|.
   std::unordered_map<std::uint64_t, float> split_since;
   double level = 0;  // the tolerance that is being worked for

@@ -97,7 +97,8 @@ void Gathering::foresee_bends(VertexId first) {
 /// By how much interpolation is too bright around each vertex.
 void Gathering::find_excess() {
   const std::vector<Edge> edges = living_edges(mesh_);
-  indirect_excess_ = around_vertices(edges, [&](const Edge& e) { return known_indirect_error(e); });
+  indirect_excess_ =
+      around_vertices(edges, [&](const Edge& e) { return likely_indirect_error(e); });
   const std::vector<double> direct_excess =
       around_vertices(edges, [&](const Edge& e) { return direct_error(e); });
   for (VertexId v = 0; v < state_.light.size(); ++v) {

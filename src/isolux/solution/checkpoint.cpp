@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "isolux checkpoint 5";
+constexpr const char* kFormat = "isolux checkpoint 6";
 
 [[noreturn]] void damaged(const char* key) {
   throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
@@ -58,6 +58,11 @@ struct PackedError {
   std::uint64_t edge = 0;
   float error = 0;
   std::uint32_t unused = 0;
+};
+
+struct PackedFinding {
+  std::uint64_t edge = 0;
+  EdgeFinding finding;
 };
 
 struct PackedMiddle {
@@ -167,13 +172,6 @@ Triangulation mesh_from_json(const json& object, const Rules& rules, const Bound
   return {rules, bounds, std::move(vertices), std::move(triangles)};
 }
 
-void put_errors(json& object, const char* key,
-                const std::unordered_map<std::uint64_t, float>& errors) {
-  std::vector<PackedError> packed;
-  for (const auto& [edge, error] : errors) packed.push_back({edge, error});
-  put(object, key, packed);
-}
-
 json state_to_json(const GatheringState& state) {
   json object;
   std::vector<PackedLight> lights;
@@ -195,18 +193,16 @@ json state_to_json(const GatheringState& state) {
   std::vector<PackedMiddle> middles;
   for (const auto& [edge, light] : state.middles) middles.push_back({edge, light});
   put(object, "middles", middles);
-  put_errors(object, "indirect_error", state.indirect_error);
-  put_errors(object, "split_since", state.split_since);
+  std::vector<PackedFinding> findings;
+  for (const auto& [edge, finding] : state.indirect_findings) findings.push_back({edge, finding});
+  put(object, "indirect_findings", findings);
+  std::vector<PackedError> split_since;
+  for (const auto& [edge, error] : state.split_since) split_since.push_back({edge, error});
+  put(object, "split_since", split_since);
   for_each_scalar(state, [&](const char* key, double value) { object[key] = value; });
   object["tries"] = state.tries;
   object["statistics"] = statistics_to_json(state.statistics);
   return object;
-}
-
-std::unordered_map<std::uint64_t, float> get_errors(const json& object, const char* key) {
-  std::unordered_map<std::uint64_t, float> errors;
-  for (const PackedError& p : get<PackedError>(object, key)) errors[p.edge] = p.error;
-  return errors;
 }
 
 /// A row has a ray for each cell and part of one.
@@ -267,8 +263,12 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
   for (const PackedMiddle& p : get<PackedMiddle>(object, "middles")) {
     state.middles[p.edge] = p.light;
   }
-  state.indirect_error = get_errors(object, "indirect_error");
-  state.split_since = get_errors(object, "split_since");
+  for (const PackedFinding& p : get<PackedFinding>(object, "indirect_findings")) {
+    state.indirect_findings[p.edge] = p.finding;
+  }
+  for (const PackedError& p : get<PackedError>(object, "split_since")) {
+    state.split_since[p.edge] = p.error;
+  }
   for_each_scalar(state, [&](const char* key, double& value) {
     const json& j = member(object, key);
     if (!j.is_number()) damaged(key);
