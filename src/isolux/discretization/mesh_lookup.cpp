@@ -217,6 +217,7 @@ class MeshLookup::Impl {
     }
     std::sort(order.begin(), order.end());
     std::vector<std::pair<VoxelKey, std::uint32_t>> entries;
+    facets_.reserve(order.size());
     for (const auto& [key, id, level] : order) {
       const auto index = static_cast<std::uint32_t>(facets_.size());
       facets_.push_back(facet_of(id));

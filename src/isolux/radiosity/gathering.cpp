@@ -215,15 +215,15 @@ void Gathering::finish() {
     triangle.shot = unshot_radiosity(mesh_, triangle);
   }
   state_.statistics.interrupted = stopped_;
-  std::size_t links = 0;
+  std::size_t rays = 0;
   state_.statistics.gatherers = 0;
   for (const VertexLight& light : state_.light) {
     if (!light.gathers) continue;
     ++state_.statistics.gatherers;
-    links += light.row.rays.size();
+    rays += light.rays;
   }
   state_.statistics.gather_rays =
-      static_cast<int>(links / std::max<std::size_t>(state_.statistics.gatherers, 1));
+      static_cast<int>(rays / std::max<std::size_t>(state_.statistics.gatherers, 1));
   state_.statistics.triangles = mesh_.triangle_count();
   state_.statistics.vertices = mesh_.vertices().size();
   state_.statistics.cpu_seconds = stopwatch_.cpu();

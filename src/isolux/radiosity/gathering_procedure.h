@@ -44,6 +44,9 @@ class Gathering {
   // Rays over a hemisphere, cells a side, until it is known who gathers.
   static constexpr int kTrialGrid = 12;
 
+  // Of finer grids not all rays are kept, but those over one of so many cells a side.
+  static constexpr int kKeptGrid = 8;
+
   // Of a linear function's error squared over a triangle, as a mean: 8/45 (Σ e² + Σ e e') for the
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
   static constexpr double kMeanSquare = 16.0 / 45;
@@ -137,7 +140,10 @@ class Gathering {
     std::uint64_t id;
   };
   struct TracedRow {
-    Row<Link> links;
+    Row<Link> links;          // those to keep
+    int grid = 0;             // of all rays, cells a side
+    std::size_t rays = 0;     // that were traced
+    Gathered beyond;          // lx: what all brought more than those to keep; σ of what all did
     double escaped = 0;       // part of the rays that no light comes back from
     std::vector<Site> fresh;  // of the links to kFresh, in their order
   };
@@ -152,6 +158,7 @@ class Gathering {
   void look_up_anew();
   std::vector<VertexId> outdated_vertices() const;
   Gathered gather(const Row<Link>& row) const;
+  Rgb gathered_by(const VertexLight& light) const;
   void evaluate(std::span<const VertexId> vertices);
   void interpolate_indirect(VertexId v);
   void foresee_bends(VertexId first);

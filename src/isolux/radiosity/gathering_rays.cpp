@@ -26,7 +26,9 @@ constexpr double kLeastDoubt = 0.02 * 0.02 * 512;
 /// rays may be alike by chance: what neighbours saw counts too.
 std::vector<double> Gathering::doubts() {
   const auto own = [&](VertexId v, double sigma) {
-    return square(sigma) * std::pow(double(state_.light[v].row.cells()), kFall);
+    const VertexLight& light = state_.light[v];
+    const std::size_t cells = light.gathers ? square_of(light.grid) : light.row.cells();
+    return square(sigma) * std::pow(double(cells), kFall);
   };
   const auto for_vertices = [&](const auto& body) {
     parallel_for(state_.light.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -125,7 +127,8 @@ void Gathering::gather_all(int finest) {
     for (VertexId v = 0; v < state_.light.size(); ++v) {
       const VertexLight& light = state_.light[v];
       if (!light.gathers && light.depth > 0) continue;
-      if (double(square_of(std::min(wanted[v], finest))) > kClearly * double(light.row.cells())) {
+      const std::uint64_t has = light.gathers ? square_of(light.grid) : light.row.cells();
+      if (double(square_of(std::min(wanted[v], finest))) > kClearly * double(has)) {
         gatherers.push_back(v);
       }
     }
@@ -144,7 +147,7 @@ void Gathering::trace_as_wanted(std::span<const VertexId> vertices, std::span<co
   std::vector<int> grids;
   for (const VertexId v : vertices) {
     const VertexLight& light = state_.light[v];
-    const int has = light.gathers ? light.row.grid : 0;
+    const int has = light.gathers ? light.grid : 0;
     grids.push_back(std::max(std::min(wanted[v], finest), has));
   }
   trace(vertices, grids);
@@ -184,25 +187,37 @@ void Gathering::trace_rows(std::span<const RowRequest> requests,
     });
     for (std::size_t i = 0; i < rows.size(); ++i) {
       list_fresh_sites(rows[i]);
-      state_.statistics.refinement_rays += rows[i].links.rays.size();
+      state_.statistics.refinement_rays += rows[i].rays;
       take(first + i, std::move(rows[i]));
     }
   }
 }
 
-/// A row whose sites are listed as far as they were before.
+/// A row whose sites are listed as far as they were before. Of many rays few are kept: what all
+/// bring more than these hardly changes when, later, the light does.
 Gathering::TracedRow Gathering::traced(const RowRequest& request) const {
   thread_local Row<Landing> landings;
-  hemisphere_->trace(request.receiver, request.grid, options_.seed, request.id, landings);
-  TracedRow row{{landings.grid, landings.divided, {}}, 0, {}};
+  TracedRow row;
+  const auto trace = [&](int grid) {
+    hemisphere_->trace(request.receiver, grid, options_.seed, request.id, landings);
+    row.rays += landings.rays.size();
+  };
+  trace(request.grid);
+  row.grid = request.grid;
+  row.escaped = mean_over(
+      landings, [&](std::size_t i) { return double(hemisphere_->lost(landings.rays[i].site)); });
+  if (request.grid > kTrialGrid) {
+    row.beyond = hemisphere_->gather_with_error(landings, state_.sent);
+    trace(kKeptGrid);
+    row.beyond.irradiance -= hemisphere_->gather(landings, state_.sent);
+  }
+  row.links = {landings.grid, landings.divided, {}};
   row.links.rays.reserve(landings.rays.size());
   for (const Landing& landing : landings.rays) {
     const std::optional<std::uint32_t> site = state_.sites.find(landing.site);
     row.links.rays.push_back({site.value_or(kFresh), landing.weights});
     if (!site) row.fresh.push_back(landing.site);
   }
-  row.escaped = mean_over(
-      landings, [&](std::size_t i) { return double(hemisphere_->lost(landings.rays[i].site)); });
   return row;
 }
 
@@ -219,6 +234,10 @@ void Gathering::give_links(VertexId v, TracedRow row) {
   light.escaped = row.escaped;
   light.bend = 0;
   light.gathers = true;
+  light.grid = row.grid;
+  light.rays = static_cast<std::uint32_t>(row.rays);
+  light.beyond = row.beyond.irradiance;
+  light.indirect_deviation = row.beyond.error;
   light.row = std::move(row.links);
 }
 

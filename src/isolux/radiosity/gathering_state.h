@@ -29,7 +29,10 @@ struct VertexLight {
                             // gather: those it lies among, all of them less deep
   std::uint32_t depth = 0;  // 0: it has none, and gathers
   bool gathers = false;
-  Row<Link> row;  // where it gathers; few where it does not, for a glimpse
+  int grid = 0;            // of the rays it gathered with, cells a side
+  std::uint32_t rays = 0;  // their number
+  Rgb beyond;     // lx: what these brought more than those that are kept, under the light of then
+  Row<Link> row;  // those that are kept; few where it does not gather, for a glimpse
 };
 
 /// E_d in the middle of an edge. In single precision, for there are many.

@@ -20,6 +20,11 @@ Gathered Gathering::gather(const Row<Link>& row) const {
   return gathered;
 }
 
+/// E_i of a vertex that gathers, under the light as of light_sites().
+Rgb Gathering::gathered_by(const VertexLight& light) const {
+  return (isolux::gather(light.row, site_light_) + light.beyond) * state_.balance;
+}
+
 /// E_i of vertices with links, under the light of the moment, with its σ.
 void Gathering::evaluate(std::span<const VertexId> vertices) {
   light_sites();
@@ -27,9 +32,8 @@ void Gathering::evaluate(std::span<const VertexId> vertices) {
     for (std::size_t i = begin; i < end; ++i) {
       VertexLight& light = state_.light[vertices[i]];
       if (!light.gathers) continue;
-      const Gathered gathered = gather(light.row);
-      light.indirect = gathered.irradiance;
-      light.indirect_deviation = gathered.error;
+      light.indirect = gathered_by(light);
+      if (light.grid == light.row.grid) light.indirect_deviation = gather(light.row).error;
     }
   });
   for (const VertexId v : vertices) sum_up(v);
@@ -123,7 +127,7 @@ void Gathering::transfer(bool rough) {
     parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         VertexLight& light = state_.light[gatherers[i]];
-        light.indirect = isolux::gather(light.row, site_light_) * state_.balance;
+        light.indirect = gathered_by(light);
       }
     });
     for (const VertexId v : order()) {
@@ -139,7 +143,7 @@ void Gathering::transfer(bool rough) {
   parallel_for(gatherers.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       VertexLight& light = state_.light[gatherers[i]];
-      light.indirect_deviation = gather(light.row).error;
+      if (light.grid == light.row.grid) light.indirect_deviation = gather(light.row).error;
     }
   });
   for (const VertexId v : order()) {

@@ -50,7 +50,8 @@ struct PackedLight {
   double direct_deviation = 0, indirect_deviation = 0, own_bend = 0, bend = 0, escaped = 0,
          excess = 0, glimpse = 0, glimpse_deviation = 0;
   MeshPlace among;
-  std::uint32_t depth = 0, gathers = 0, grid = 0, divided = 0;
+  Rgb beyond;
+  std::uint32_t depth = 0, gathers = 0, grid = 0, kept_grid = 0, divided = 0, rays = 0;
   std::uint64_t links = 0;
 };
 
@@ -179,9 +180,10 @@ json state_to_json(const GatheringState& state) {
   std::vector<DividedCell> divided;
   for (const VertexLight& l : state.light) {
     lights.push_back({l.direct, l.indirect, l.direct_deviation, l.indirect_deviation, l.own_bend,
-                      l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among, l.depth,
-                      l.gathers, static_cast<std::uint32_t>(l.row.grid),
-                      static_cast<std::uint32_t>(l.row.divided.size()), l.row.rays.size()});
+                      l.bend, l.escaped, l.excess, l.glimpse, l.glimpse_deviation, l.among,
+                      l.beyond, l.depth, l.gathers, static_cast<std::uint32_t>(l.grid),
+                      static_cast<std::uint32_t>(l.row.grid),
+                      static_cast<std::uint32_t>(l.row.divided.size()), l.rays, l.row.rays.size()});
     links.insert(links.end(), l.row.rays.begin(), l.row.rays.end());
     divided.insert(divided.end(), l.row.divided.begin(), l.row.divided.end());
   }
@@ -246,9 +248,13 @@ GatheringState state_from_json(const json& object, Triangulation mesh, std::size
          p.among,
          p.depth,
          p.gathers != 0,
-         {static_cast<int>(p.grid), take(divided, next_divided, p.divided, "divided"),
+         static_cast<int>(p.grid),
+         p.rays,
+         p.beyond,
+         {static_cast<int>(p.kept_grid), take(divided, next_divided, p.divided, "divided"),
           take(links, next, p.links, "links")}});
     check(state.light.back().row);
+    if (p.grid > HemisphereGather::kFinestGrid || !is_finite(p.beyond)) damaged("light");
   }
   state.sent = get<Rgb>(object, "sent");
   if (state.light.size() != vertex_count) damaged("light");
