@@ -290,6 +290,26 @@ TEST(CoverTest, CeilingsAreCoveredUpToWhatHangsAHairBelow) {
 
 /// Edges of a thin-walled tube are split on its outside, not on the wall's other face, though that
 /// is nearer to their middles than the arc over them.
+TEST(CoverTest, APointStandsWhereABallTouchesTheFloor) {
+  const Scene scene = scene_of(
+      "materials: {m: {reflectance: 0.5}}\nobjects: "
+      "[{shape: {box: {lower: [0, 0, 0], upper: [1, 1, 1], inward: true}}, material: m}, "
+      "{shape: {sphere: {center: [0.37, 0.61, 0.1], radius: 0.1}}, material: m}]");
+  const RayCaster rays(scene);
+  for (const double spacing : {0.1, 0.05}) {
+    SCOPED_TRACE(spacing);
+    const Triangulation mesh = covered(rays, spacing);
+    EXPECT_THAT(mesh.validate(), testing::IsEmpty());
+    double nearest = spacing;
+    for (const Vertex& v : mesh.vertices()) {
+      if (v.position.z < 1e-9) {
+        nearest = std::min(nearest, std::hypot(v.position.x - 0.37, v.position.y - 0.61));
+      }
+    }
+    EXPECT_LT(nearest, 0.005);  // where the gap is a tenth of a millimetre
+  }
+}
+
 TEST(CoverTest, EdgesOverThinWallsAreSplitOnTheSideOfTheirEnds) {
   const double outside = 1, inside = 0.93;
   const Scene scene = scene_of(fmt::format(

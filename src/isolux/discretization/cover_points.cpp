@@ -213,6 +213,9 @@ void CoverPoints::settle() {
   }
   std::sort(between.begin(), between.end());
   for (const auto& [size, i] : between) {
+    if (const auto contact = contact_beside(points[i])) accept(*contact, around[i]);
+  }
+  for (const auto& [size, i] : between) {
     while (!front_.empty() && front_.top().first < size && going()) {
       const std::uint32_t parent = front_.top().second;
       front_.pop();

@@ -97,6 +97,12 @@ class CoverPoints {
   void add(const CoverPoint& point, const Surroundings& around);
   void spawn_all();
   void run_creases();
+  struct Gap {
+    double width;  // m
+    Vec3 slope;    // tangential
+  };
+  std::optional<Gap> gap_over(const ZonePoint& point, double most) const;
+  std::optional<ZonePoint> contact_beside(const CoverPoint& from) const;
   bool going();
 
   void trace(const CreaseSeed& seed);

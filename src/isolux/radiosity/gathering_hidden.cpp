@@ -31,6 +31,20 @@ bool Gathering::hidden(const SurfacePoint& middle, const Edge& edge) const {
   return !covered(a, far) && !covered(b, far);
 }
 
+/// Whether what covers the first point, close by, opens on the way to the second, as under a ball:
+/// the dark there can be seen from beside.
+bool Gathering::touched_beside(const SurfacePoint& point, const SurfacePoint& other) const {
+  constexpr double kOpening = 2;  // times as wide, at a quarter of the way and at half
+  const Vec3 way = other.position - point.position;
+  const auto gap = [&](double part) {
+    const auto hit =
+        rays_.nearest({point.position + way * part, point.normal}, {rays_.epsilon(), length(way)});
+    return hit ? hit->t : -1;
+  };
+  const double here = gap(0), quarter = gap(0.25), half = gap(0.5);
+  return quarter > kOpening * here && half > kOpening * quarter;
+}
+
 /// By vertex: of those that lie hidden but have neighbours that nothing covers nearer than they
 /// are, up to three of these. Their triangles reach out from under the sheet that covers them, as
 /// on a ceiling over a lamp, and would be seen to be dark. Where bodies touch, neighbours are
@@ -56,7 +70,8 @@ std::vector<MeshPlace> Gathering::seen_beside_hidden() {
         const Vertex& other = mesh_.vertex(w);
         if (dark[w] || dot(vertex.normal, other.normal) < kFacing) continue;
         const double away = distance(vertex.position, other.position);
-        if (!covered(other, away)) seen.emplace_back(square(away), w);
+        if (covered(other, away) || touched_beside(vertex, other)) continue;
+        seen.emplace_back(square(away), w);
       }
     }
     std::sort(seen.begin(), seen.end());

@@ -123,6 +123,7 @@ class Gathering {
   // What lies hidden close under another sheet
   bool covered(const SurfacePoint& point, double far) const;
   bool hidden(const SurfacePoint& middle, const Edge& edge) const;
+  bool touched_beside(const SurfacePoint& point, const SurfacePoint& other) const;
   std::vector<MeshPlace> seen_beside_hidden();
   void give_places(const Coarsening& subsets);
   void light_hidden();

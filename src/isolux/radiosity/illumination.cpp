@@ -31,7 +31,7 @@ std::vector<Illumination> gather_at(const Triangulation& mesh, const RayCaster& 
   const double rough = std::clamp(solved.error, kLeastRough, kMostRough);
   constexpr int kDoublings = 2;
   // Of what the errors of all emitters would sum up to, were they alike: some cancel.
-  constexpr double kAlike = 0.8;
+  constexpr double kAlike = 0.7;
   // Short of its tolerance, a solution may have made or lost light where it is still rough.
   const double unbalanced = solved.converged || !(solved.emitted_flux > 0)
                                 ? 0
