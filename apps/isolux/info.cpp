@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "isolux/discretization/coverage.h"
 #include "isolux/solution/solution.h"
 #include "output.h"
 
@@ -107,6 +108,16 @@ std::string describe_shooting(const Statistics& s) {
       s.split, s.removed, s.mesh_area, s.emitted_flux, s.unshot_flux, unshot, s.ambient_exitance);
 }
 
+/// How much of the surface carries triangles, to some 0.05 %.
+std::string describe_coverage(const Solution& solution) {
+  constexpr int kLines = 20'000;
+  const RayCaster rays(solution.scene);
+  const Coverage coverage = coverage_of(solution.mesh, rays, kLines, solution.options.seed);
+  if (!(coverage.area > 0)) return "";
+  return fmt::format("coverage    {:.1f} % of the surface that light can reach\n",
+                     100 * coverage.covered / coverage.area);
+}
+
 std::string describe_objects(const Solution& solution) {
   std::string text = "\n   mesh m²  surface m²    mean lx  object\n";
   const std::vector<ObjectLight> objects = light_of_objects(solution);
@@ -129,7 +140,7 @@ void run(const std::filesystem::path& path) {
         describe_scene(solution.scene) + describe_options(solution.options) +
         (solution.options.method == Method::gathering ? describe_gathering(solution.statistics)
                                                       : describe_shooting(solution.statistics)) +
-        describe_objects(solution));
+        describe_coverage(solution) + describe_objects(solution));
 }
 
 }  // namespace
