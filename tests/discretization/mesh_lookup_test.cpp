@@ -4,6 +4,7 @@
 
 #include "isolux/core/random.h"
 #include "support/meshes.h"
+#include "support/scenes.h"
 
 namespace isolux {
 namespace {
@@ -60,6 +61,28 @@ TEST(MeshLookup, OfTwoSheetsTheNearer) {
     ASSERT_TRUE(place);
     EXPECT_DOUBLE_EQ(at(mesh, *place).z, z);
   }
+}
+
+TEST(MeshLookup, WithRaysNothingFromUnderTheSheetThatIsSeen) {
+  // A lower sheet close under an upper, whose mesh has a hole.
+  const auto sheet = [](const std::string& z) {
+    return "  - {shape: {parallelogram: {corner: [0, 0, " + z +
+           "], u: [1, 0, 0], v: [0, 1, 0]}}, material: m}\n";
+  };
+  const Scene scene =
+      scene_of("materials: {m: {reflectance: 0.5}}\nobjects:\n" + sheet("0.003") + sheet("0"));
+  const RayCaster rays(scene);
+  Triangulation mesh({1, 1e-9, 0.5}, {{0, 0, 0}, {1, 1, 1}});
+  add_grid(mesh, {0, 0, 0.003}, {0.4, 0, 0}, {0, 1, 0}, 3, {0, 0}, gray(0.5));
+  add_grid(mesh, {0.6, 0, 0.003}, {0.4, 0, 0}, {0, 1, 0}, 3, {0, 0}, gray(0.5));
+  add_grid(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, {1, 0}, gray(0.5));
+  const Vec3 in_hole{0.5, 0.3, 0.003}, up{0, 0, 1};
+  const auto under = MeshLookup(mesh).place(in_hole, up);
+  ASSERT_TRUE(under);
+  EXPECT_EQ(at(mesh, *under).z, 0);
+  const auto seen = MeshLookup(mesh, &rays).place(in_hole, up);
+  ASSERT_TRUE(seen);
+  EXPECT_DOUBLE_EQ(at(mesh, *seen).z, 0.003);
 }
 
 TEST(MeshLookup, OfManyHitsEachInItsOwnObject) {

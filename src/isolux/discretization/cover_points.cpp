@@ -116,6 +116,14 @@ bool CoverPoints::crowded_in_sight(const ZonePoint& point) const {
   });
 }
 
+/// Whether the height of one point over the other is no more than that of a curved surface; else
+/// one may be of another sheet close by.
+bool CoverPoints::level(const SurfacePoint& q, const SurfacePoint& point) {
+  const Vec3 d = q.position - point.position;
+  const double height = std::abs(dot(d, point.normal));
+  return height <= (length(q.normal - point.normal) + 1e-3) * length(d);
+}
+
 bool CoverPoints::crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
                              const PointSpacing& spacing) const {
   return std::any_of(ids.begin(), ids.end(), [&](std::uint32_t id) {
@@ -124,9 +132,7 @@ bool CoverPoints::crowded_by(std::span<const std::uint32_t> ids, const ZonePoint
     const double apart = (q.on_crease() ? 0.75 : 1) * kApart;
     if (spacing.measure(d) >= apart * spacing.size || q.measure(d) >= apart * q.size) return false;
     if (dot(q.normal, point.normal) < walk_.cos_normal_tolerance()) return false;
-    // Of another sheet close by, where the height between them is not that of a curved surface.
-    const double height = std::abs(dot(d, point.normal));
-    if (height <= (length(q.normal - point.normal) + 1e-3) * length(d)) return true;
+    if (level(q, point)) return true;
     const auto there = walk_.over(point, q.position);
     return there && distance(there->position, q.position) < 1e-3 * spacing.size;
   });

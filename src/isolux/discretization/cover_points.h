@@ -80,6 +80,7 @@ class CoverPoints {
   void adjoin(const ZonePoint& a, const ZonePoint& b) {
     grid_.adjoin(a.surface.object, b.surface.object);
   }
+  static bool level(const SurfacePoint& q, const SurfacePoint& point);
   bool crowded(const ZonePoint& point, const PointSpacing& spacing) const;
   bool crowded_by(std::span<const std::uint32_t> ids, const ZonePoint& point,
                   const PointSpacing& spacing) const;

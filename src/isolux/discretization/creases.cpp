@@ -5,6 +5,10 @@ namespace {
 
 // A crease is followed at this many steps inside it.
 constexpr double kAside = 0.25;
+// What a walk leads to is of the same sheet as a point, or that point itself, if no further from it
+// than these parts of the size.
+constexpr double kSameSheet = 0.02, kSamePoint = 1e-3;
+
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double t = std::clamp(dot(p - a, ab) / std::max(length_squared(ab), 1e-300), 0.0, 1.0);
@@ -13,10 +17,15 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-/// Whether a point lies on the surface of `q`, rather than on a sheet close by.
+/// Whether a point lies on the surface of `q`, rather than on a sheet close by: walking over from
+/// there leads to it. Where it is higher than the surface has turned, it must do so exactly, with
+/// nothing between.
 bool CoverPoints::on_sheet_of(const CoverPoint& q, const SurfacePoint& point) const {
   const auto there = walk_.over(q, point.position);
-  return there && distance(there->position, point.position) < 0.02 * q.size;
+  if (!there) return false;
+  const double off = distance(there->position, point.position);
+  if (level(q, point)) return off < kSameSheet * q.size;
+  return off < kSamePoint * q.size && walk_.open(q, point);
 }
 
 /// Whether the crease is traced already where `point` lies on it, `outward` across it.

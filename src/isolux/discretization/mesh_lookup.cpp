@@ -5,7 +5,9 @@
 #include <tuple>
 #include <utility>
 
+#include "isolux/core/parallel.h"
 #include "isolux/discretization/nearest_vertices.h"
+#include "isolux/discretization/surface_walk.h"
 
 namespace isolux {
 namespace {
@@ -18,6 +20,8 @@ constexpr float kHeight = 0.1f * kOutside;
 // Over a triangle this near, in parts of its reach, no other need be looked at: one of any object,
 // and one of the object that the point is on, which hardly has another sheet so close by.
 constexpr float kSure = 0.1f, kOwnSure = 0.5f;
+// A vertex is covered if something lies over it nearer than this part of a side of its triangles.
+constexpr double kCovered = 0.25;
 // The cosine of the largest angle between a triangle and the surface that it stands for.
 constexpr float kFacing = 0.5f;
 
@@ -65,9 +69,12 @@ std::size_t hash(VoxelKey key) {
 
 class MeshLookup::Impl {
  public:
-  explicit Impl(const Triangulation& mesh) : mesh_(mesh), nearest_(mesh) {
+  Impl(const Triangulation& mesh, const RayCaster* rays) : mesh_(mesh), nearest_(mesh) {
     find_middle();
     collect_triangles();
+    if (!rays) return;
+    walk_.emplace(*rays, mesh.rules().normal_tolerance);
+    find_covered();
   }
 
   std::optional<MeshPlace> covering(const Vec3& point, const Vec3& normal) const {
@@ -75,7 +82,7 @@ class MeshLookup::Impl {
     for (int level = 0; level < levels_ && !search.sure; ++level) {
       look_among(find(voxel_of(search.from_middle, level)), search);
     }
-    return search.place();
+    return doubtful(search) ? seen(point, normal) : search.place();
   }
 
   void covering(std::span<const std::optional<SurfaceHit>> hits,
@@ -94,13 +101,21 @@ class MeshLookup::Impl {
       look_together(searches);
       auto search = searches.begin();
       for (std::size_t i = first; i < end; ++i) {
-        places[i] = hits[i] ? search++->place() : std::nullopt;
-        if (hits[i] && !places[i]) places[i] = covering(hits[i]->point, hits[i]->normal);
+        places[i].reset();
+        if (!hits[i]) continue;
+        places[i] = !search->best || doubtful(*search) ? covering(hits[i]->point, hits[i]->normal)
+                                                       : search->place();
+        ++search;
       }
     }
   }
 
   std::optional<MeshPlace> nearest(const Vec3& point, const Vec3& normal) const {
+    if (walk_) {
+      const SurfacePoint from = surface_point(point, normal);
+      const auto found = nearest_.place(point, normal, [&](VertexId v) { return sees(from, v); });
+      if (found) return found;
+    }
     return nearest_.place(point, normal);
   }
 
@@ -129,15 +144,119 @@ class MeshLookup::Impl {
     bool open(int level) const { return !sure && (grids >> level & 1); }
     std::optional<MeshPlace> place() const {
       if (!best) return std::nullopt;
-      MeshPlace place{best->vertices, {}};
-      double sum = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        sum += place.weights[k] = std::max(static_cast<double>(weights[k]), 0.0);
-      }
-      for (double& w : place.weights) w /= sum;
-      return place;
+      return place_in(*best, weights);
     }
   };
+
+  static MeshPlace place_in(const Facet& facet, const std::array<float, 3>& weights) {
+    MeshPlace place{facet.vertices, {}};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += place.weights[k] = std::max(static_cast<double>(weights[k]), 0.0);
+    }
+    for (double& w : place.weights) w /= sum;
+    return place;
+  }
+
+  /// A facet over a point.
+  struct Over {
+    float score;  // the less, the nearer
+    std::uint32_t facet;
+    std::array<float, 3> weights;
+    bool inside;  // all sides
+    auto operator<=>(const Over& other) const {
+      return std::pair(score, facet) <=> std::pair(other.score, other.facet);
+    }
+  };
+
+  static std::optional<Over> over(const Facet& facet, std::uint32_t index, const Vec3f& p,
+                                  const Vec3f& n) {
+    const Vec3f d = p - facet.corner;
+    const float w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
+    const float outside = std::max({-w1, -w2, w1 + w2 - 1});
+    if (outside > kOutside) return std::nullopt;
+    const float height = std::abs(dot(facet.up, d)), facing = dot(facet.up, n);
+    if (height > 1) return std::nullopt;
+    if (facing < 0 || facing * facing < kFacing * kFacing * dot(facet.up, facet.up)) {
+      return std::nullopt;
+    }
+    return Over{
+        std::max(outside, 0.0f) + height * kHeight, index, {1 - w1 - w2, w1, w2}, outside <= 0};
+  }
+
+  static SurfacePoint surface_point(const Vec3& point, const Vec3& normal) {
+    SurfacePoint from;
+    from.position = point, from.normal = normal;
+    return from;
+  }
+
+  /// Whether a vertex has the light that is there beside the point.
+  bool sees(const SurfacePoint& from, VertexId v) const {
+    return mesh_.vertex(v).hidden || walk_->open(from, mesh_.vertex(v));
+  }
+
+  /// Whether another triangle may have the light of the point.
+  bool doubtful(const Search& search) const {
+    return walk_ && search.best && covered_[static_cast<std::size_t>(search.best - facets_.data())];
+  }
+
+  /// The place among those vertices that the point sees: of a triangle all of which it sees, else
+  /// in the part of one.
+  std::optional<MeshPlace> seen(const Vec3& point, const Vec3& normal) const {
+    constexpr double kLittle = 1e-3, kEnough = 0.5;  // of the weights
+    const Vec3f p = narrow(point - middle_), n = narrow(normal);
+    thread_local std::vector<Over> candidates;
+    candidates.clear();
+    for (int level = 0; level < levels_; ++level) {
+      for (const std::uint32_t index : find(voxel_of(point - middle_, level))) {
+        if (const auto found = over(facets_[index], index, p, n)) candidates.push_back(*found);
+      }
+    }
+    std::sort(candidates.begin(), candidates.end());
+    const SurfacePoint from = surface_point(point, normal);
+    std::optional<MeshPlace> best;
+    double most = kEnough;
+    for (const Over& candidate : candidates) {
+      MeshPlace place = place_in(facets_[candidate.facet], candidate.weights);
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        double& w = place.weights[k];
+        if (w < kLittle || !sees(from, place.vertices[k])) w = 0;
+        sum += w;
+      }
+      if (sum <= most) continue;
+      most = sum;
+      for (double& w : place.weights) w /= sum;
+      best = place;
+      if (sum > 1 - 3 * kLittle) break;
+    }
+    return best;
+  }
+
+  /// Of which facets vertices are covered.
+  void find_covered() {
+    std::vector<double> reach(mesh_.vertices().size());
+    for (const Facet& facet : facets_) {
+      double longest = 0;
+      const auto at = [&](std::size_t k) { return mesh_.vertex(facet.vertices[k % 3]).position; };
+      for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, distance(at(k), at(k + 1)));
+      for (const VertexId v : facet.vertices) reach[v] = std::max(reach[v], kCovered * longest);
+    }
+    std::vector<char> covered(reach.size());
+    const double near = 2 * walk_->rays().epsilon();
+    parallel_for(reach.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const Vertex& vertex = mesh_.vertex(static_cast<VertexId>(v));
+        covered[v] =
+            reach[v] > near && walk_->rays().occluded({vertex.position + vertex.normal * near,
+                                                       vertex.position + vertex.normal * reach[v]});
+      }
+    });
+    for (const Facet& facet : facets_) {
+      covered_.push_back(
+          std::ranges::any_of(facet.vertices, [&](VertexId v) { return covered[v]; }));
+    }
+  }
 
   /// Grid by grid, so that all wait for memory together.
   void look_together(std::span<Search> searches) const {
@@ -166,20 +285,14 @@ class MeshLookup::Impl {
     for (const std::uint32_t index : listed) {
       const Facet& facet = facets_[index];
       if (search.object != kAny && facet.object != search.object) continue;
-      const Vec3f d = search.p - facet.corner;
-      const float w1 = dot(facet.along[0], d), w2 = dot(facet.along[1], d);
-      const float outside = std::max({-w1, -w2, w1 + w2 - 1});
-      if (outside > kOutside) continue;
-      const float height = std::abs(dot(facet.up, d)), facing = dot(facet.up, search.n);
-      if (height > 1) continue;
-      if (facing < 0 || facing * facing < kFacing * kFacing * dot(facet.up, facet.up)) continue;
+      const std::optional<Over> found = over(facet, index, search.p, search.n);
       // The nearest sheet; in it the triangle whose sides are kept best.
-      const float score = std::max(outside, 0.0f) + height * kHeight;
-      if (search.best && score >= search.score) continue;
+      if (!found || (search.best && found->score >= search.score)) continue;
       search.best = &facet;
-      search.score = score;
-      search.weights = {1 - w1 - w2, w1, w2};
-      search.sure = outside <= 0 && height < (search.object == kAny ? kSure : kOwnSure);
+      search.score = found->score;
+      search.weights = found->weights;
+      const float sure = search.object == kAny ? kSure : kOwnSure;
+      search.sure = found->inside && found->score < sure * kHeight;
       if (search.sure) return;
     }
   }
@@ -383,6 +496,8 @@ class MeshLookup::Impl {
 
   const Triangulation& mesh_;
   NearestVertices nearest_;
+  std::optional<SurfaceWalk> walk_;
+  std::vector<char> covered_;   // by facet: whether vertices of it are
   Vec3 middle_;                 // of the mesh
   int levels_ = 0;              // grids
   std::vector<double> scales_;  // by grid: voxels per m
@@ -392,7 +507,8 @@ class MeshLookup::Impl {
   std::vector<Voxel> table_;
 };
 
-MeshLookup::MeshLookup(const Triangulation& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+MeshLookup::MeshLookup(const Triangulation& mesh, const RayCaster* rays)
+    : impl_(std::make_unique<Impl>(mesh, rays)) {}
 MeshLookup::~MeshLookup() = default;
 
 std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& normal) const {

@@ -5,18 +5,23 @@
 #include <span>
 
 #include "isolux/discretization/interpolation.h"
+#include "isolux/raycast/ray_caster.h"
 
 namespace isolux {
 
 /// Finds the triangle over a point of the true surface, for very many points. It keeps the mesh as
 /// it stood when it was built; the vertices that it gives stay valid, since ids do.
 ///
+/// Where sheets cross at small angles, or one lies close over another, triangles of either may be
+/// near a point. With `rays`, only vertices count there that can be seen from the point along the
+/// surface, and those that have the light of such.
+///
 /// Triangles are listed by the voxels that their boxes touch, in one grid for each size of
 /// triangle, so that fine and coarse parts of a mesh are equally quick. Memory: about 250 bytes a
 /// triangle.
 class MeshLookup {
  public:
-  explicit MeshLookup(const Triangulation& mesh);
+  explicit MeshLookup(const Triangulation& mesh, const RayCaster* rays = nullptr);
   ~MeshLookup();
   MeshLookup(const MeshLookup&) = delete;
   MeshLookup& operator=(const MeshLookup&) = delete;

@@ -25,8 +25,9 @@ struct Places {
   }
 };
 
-/// The three nearest of those that face as `normal` does, to within the angle of this cosine, and
-/// stand no further away than the mesh's longest edge.
+/// The nearest of those that face as `normal` does, to within the angle of this cosine, and stand
+/// no further away than the mesh's longest edge.
+template <std::size_t kMost>
 class Facing {
  public:
   using DistanceType = double;
@@ -51,13 +52,19 @@ class Facing {
     return true;
   }
 
-  MeshPlace place() const {
+  /// The first three that `seen` is true of.
+  template <typename Seen>
+  std::optional<MeshPlace> place(const Seen& seen) const {
     MeshPlace place;
+    std::size_t found = 0;
     double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      place.vertices[k] = nearest_[std::min(k, count_ - 1)].second;
-      if (k < count_) sum += place.weights[k] = 1 / std::max(nearest_[k].first, 1e-200);
+    for (std::size_t k = 0; k < count_ && found < 3; ++k) {
+      const auto& [squared, v] = nearest_[k];
+      if (!seen(v)) continue;
+      for (std::size_t rest = found; rest < 3; ++rest) place.vertices[rest] = v;
+      sum += place.weights[found++] = 1 / std::max(squared, 1e-200);
     }
+    if (found == 0) return std::nullopt;
     for (double& w : place.weights) w /= sum;
     return place;
   }
@@ -68,7 +75,7 @@ class Facing {
   double cosine_;
   double reach_;  // m²
   std::size_t count_ = 0;
-  std::array<std::pair<double, VertexId>, 3> nearest_;  // m², nearest first
+  std::array<std::pair<double, VertexId>, kMost> nearest_;  // m², nearest first
 };
 
 }  // namespace
@@ -84,13 +91,14 @@ class NearestVertices::Tree {
     tree_.buildIndex();
   }
 
-  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const {
+  template <std::size_t kAmong, typename Seen>
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal, const Seen& seen) const {
     constexpr double kWithin60 = 0.5, kWithin90 = 1e-6;
     const std::array<double, 3> at{point.x, point.y, point.z};
     for (const double cosine : {kWithin60, kWithin90}) {
-      Facing found(places_, normal, cosine);
+      Facing<kAmong> found(places_, normal, cosine);
       tree_.findNeighbors(found, at.data(), {});
-      if (found.size() > 0) return found.place();
+      if (found.size() > 0) return found.place(seen);
     }
     return std::nullopt;
   }
@@ -106,7 +114,12 @@ NearestVertices::NearestVertices(const Triangulation& mesh) : tree_(std::make_un
 NearestVertices::~NearestVertices() = default;
 
 std::optional<MeshPlace> NearestVertices::place(const Vec3& point, const Vec3& normal) const {
-  return tree_->place(point, normal);
+  return tree_->place<3>(point, normal, [](VertexId) { return true; });
+}
+
+std::optional<MeshPlace> NearestVertices::place(const Vec3& point, const Vec3& normal,
+                                                const std::function<bool(VertexId)>& seen) const {
+  return tree_->place<16>(point, normal, seen);
 }
 
 }  // namespace isolux

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -20,6 +21,11 @@ class NearestVertices {
   /// over the square of its distance. Nothing where none within δ faces that way, within 60° if
   /// possible, else within 90°: there it is dark. May be asked from many threads at once.
   std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
+
+  /// The same of the first three that `seen` is true of, out of the sixteen nearest; nothing where
+  /// there are none.
+  std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal,
+                                 const std::function<bool(VertexId)>& seen) const;
 
  private:
   class Tree;

@@ -87,10 +87,11 @@ std::optional<ZonePoint> SurfaceWalk::in_zone(const ZonePoint& zone, const Sheet
   return found;
 }
 
-bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b) const {
+/// `room`: how high over the surface, in epsilons, nothing may stand.
+bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b, double room) const {
   const double drop = drop_between(a, b);
   for (const double part : kLifts) {
-    const double lift = part * drop + 8 * rays_.epsilon();
+    const double lift = part * drop + room * rays_.epsilon();
     if (!rays_.occluded({a.position + a.normal * lift, b.position + b.normal * lift})) return true;
     if (drop == 0) return false;
   }
@@ -99,7 +100,7 @@ bool SurfaceWalk::open(const SurfacePoint& a, const SurfacePoint& b) const {
 
 std::optional<ZonePoint> SurfaceWalk::step(const ZonePoint& from, const Vec3& target) const {
   std::optional<ZonePoint> found = over(from, target);
-  if (found && !open(from, *found)) return std::nullopt;
+  if (found && !open(from, *found, kRoomToWalk)) return std::nullopt;
   return found;
 }
 

@@ -42,7 +42,7 @@ class SurfaceWalk {
   std::optional<ZonePoint> step(const ZonePoint& from, const Vec3& target) const;
 
   /// Whether nothing stands on the surface between two points of it.
-  bool open(const SurfacePoint& a, const SurfacePoint& b) const;
+  bool open(const SurfacePoint& a, const SurfacePoint& b) const { return open(a, b, kRoom); }
 
   /// Where the surface ends between two distances (m) from `from` in the tangential unit
   /// `direction`: it runs on as far as `near`, and not as far as `far`; to within `tolerance` (m).
@@ -55,6 +55,10 @@ class SurfaceWalk {
   const RayCaster& rays() const { return rays_; }
 
  private:
+  // What lies less than so many of the caster's epsilons over a surface is passed over. Walks need
+  // more room: so points at the end of a wedge between crossing sheets are surely under the upper.
+  static constexpr double kRoom = 4, kRoomToWalk = 8;
+  bool open(const SurfacePoint& a, const SurfacePoint& b, double room) const;
   struct Sheet {
     SurfaceHit hit;
     double height;  // m: over or under the point it was looked for at

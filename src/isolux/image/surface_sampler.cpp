@@ -23,7 +23,7 @@ SurfaceSampler::SurfaceSampler(const Solution& solution)
       vertices_(solution.scene.bounds().lower, solution.mesh.rules().max_edge) {
   const auto vertices = solution.mesh.vertices();
   if (solution.options.method == Method::gathering) {
-    lookup_.emplace(solution.mesh);
+    lookup_.emplace(solution.mesh, &rays_);
     return;
   }
   for (VertexId v = 0; v < vertices.size(); ++v) {

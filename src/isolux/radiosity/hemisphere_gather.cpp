@@ -151,7 +151,7 @@ Gathered mean_with_error(const Row<Ray>& row, const Radiosity& radiosity) {
 HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
                                    std::span<const std::uint8_t> separate,
                                    std::span<const Rgb> irradiance)
-    : rays_(rays), mesh_(mesh), lookup_(mesh) {
+    : rays_(rays), mesh_(mesh), lookup_(mesh, &rays) {
   const Scene& scene = rays.scene();
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Rgb reflectance = scene.material_of(i).reflectance;
