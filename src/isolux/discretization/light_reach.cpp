@@ -14,7 +14,7 @@ using Index = std::uint32_t;
 constexpr std::size_t kLinesThroughLight = 64;
 constexpr std::size_t kPlacesOfObject = 8;  // of lights, and of what they light
 // Light is sent out along so many paths, and followed over so many reflections.
-constexpr std::size_t kPaths = 1024;
+constexpr std::size_t kLeastPaths = 1024, kPathsOfLight = 4;
 constexpr int kReflections = 12;
 // How often light is looked for from a point, straight and by reflections.
 constexpr int kStraightLooks = 24;
@@ -47,7 +47,7 @@ void LightReach::find_lights(std::uint64_t seed) {
   const Scene& scene = rays_.scene();
   std::vector<SurfaceHit> hits;
   for (Index i = 0; i < scene.objects.size(); ++i) {
-    if (!scene.objects[i].emits()) continue;
+    if (!scene.objects[i].emits() || scene.objects[i].glows) continue;
     Random random(seed, i);
     const Bounds bounds = scene.objects[i].shape->bounds();
     const double radius = 0.5 * bounds.diagonal();
@@ -80,7 +80,8 @@ void LightReach::send_light(std::uint64_t seed) {
   std::vector<std::size_t> known(scene.objects.size());
   const Vec3 center = scene.bounds().center();
   const double radius = 0.5 * diagonal_;
-  for (std::size_t path = 0; path < kPaths; ++path) {
+  const std::size_t paths = std::max(kLeastPaths, kPathsOfLight * kinds);
+  for (std::size_t path = 0; path < paths; ++path) {
     Random random(seed, ~path);
     Ray ray;
     if (const std::size_t kind = path % kinds; kind < lights_.size()) {

@@ -1,5 +1,6 @@
 #include "isolux/radiosity/furnace.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "isolux/core/error.h"
@@ -41,12 +42,15 @@ Scene furnace_scene(const Scene& scene, double exitance) {
     furnace.objects.push_back(std::move(back));
   }
   furnace.objects.push_back(closing_box(scene.bounds()));
+  const auto emits = [](const Object& object) { return object.emits(); };
+  const bool lit = std::ranges::any_of(scene.objects, emits);
   for (std::uint32_t i = 0; i < furnace.objects.size(); ++i) {
     Object& object = furnace.objects[i];
     const double reflectance = reflectance_of(i);
     furnace.materials.push_back({object.name, gray(reflectance)});
     object.material = i;
     object.sides = Sides::front;
+    object.glows = lit && !object.emits();
     object.exitance = gray(exitance * (1 - reflectance));
   }
   return furnace;

@@ -34,6 +34,9 @@ struct Object {
   Sides sides = Sides::front;
   Rgb exitance;  ///< emitted light, lm/m² (from the front side only), zero for all but lights
 
+  /// Emits for the proof of a solve only: what none but such light reaches need not be covered.
+  bool glows = false;
+
   bool emits() const { return max_channel(exitance) > 0; }
 };
 
