@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 
-#include "isolux/discretization/interpolation.h"
-#include "isolux/raycast/ray_caster.h"
+#include "isolux/discretization/facet_grids.h"
+#include "isolux/discretization/nearest_vertices.h"
+#include "isolux/discretization/vertex_sight.h"
 
 namespace isolux {
 
@@ -22,7 +22,6 @@ namespace isolux {
 class MeshLookup {
  public:
   explicit MeshLookup(const Triangulation& mesh, const RayCaster* rays = nullptr);
-  ~MeshLookup();
   MeshLookup(const MeshLookup&) = delete;
   MeshLookup& operator=(const MeshLookup&) = delete;
 
@@ -44,8 +43,14 @@ class MeshLookup {
   std::optional<MeshPlace> place(const Vec3& point, const Vec3& normal) const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Search;
+  void look_together(std::span<Search> searches) const;
+  void look_among(std::span<const std::uint32_t> listed, Search& search) const;
+  bool doubtful(const Search& search) const;
+
+  FacetGrids grids_;
+  NearestVertices nearest_;
+  std::optional<VertexSight> sight_;
 };
 
 }  // namespace isolux

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "isolux/discretization/facet_grids.h"
+#include "isolux/discretization/surface_walk.h"
+
+namespace isolux {
+
+/// Which vertices have the light that is at a point, where sheets cross at small angles or lie
+/// close over one another: those that can be seen from it along the surface, and hidden ones, to
+/// which light was given. Keeps the facets and the mesh by reference.
+class VertexSight {
+ public:
+  VertexSight(const Triangulation& mesh, const FacetGrids& grids, const RayCaster& rays);
+
+  /// Whether a vertex has the light that is there beside the point.
+  bool sees(const SurfacePoint& from, VertexId v) const {
+    return mesh_.vertex(v).hidden || walk_.open(from, mesh_.vertex(v));
+  }
+
+  /// Whether over a point in this facet, by number, another may have the light: something lies
+  /// over a vertex of it.
+  bool doubtful(std::size_t facet) const { return covered_[facet]; }
+
+  /// The place among those vertices that the point sees: of a triangle all of which it sees, else
+  /// in the part of one.
+  std::optional<MeshPlace> place(const SurfacePoint& from) const;
+
+ private:
+  const Triangulation& mesh_;
+  const FacetGrids& grids_;
+  SurfaceWalk walk_;
+  std::vector<char> covered_;  // by facet: whether vertices of it are
+};
+
+}  // namespace isolux
