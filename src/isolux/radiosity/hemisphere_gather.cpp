@@ -261,18 +261,9 @@ bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& h
   });
 }
 
-/// How far it is from a point to the nearest vertex of a place, m.
-double HemisphereGather::coarseness(const Vec3& point, const MeshPlace& place) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const VertexId v : place.vertices) {
-    least = std::min(least, distance(mesh_.vertex(v).position, point));
-  }
-  return least;
-}
-
 /// Where the mesh has the light of what a ray met, under a triangle if `covering`. Where no
 /// triangle lies, vertices near by have it; but where surfaces come closer than the mesh can
-/// follow, as where bodies touch, one is as dark as the other: then the finer mesh tells.
+/// follow, as where bodies touch, one is as dark as the other.
 std::optional<MeshPlace> HemisphereGather::place_of(
     const Receiver& receiver, const SurfaceHit& hit,
     const std::optional<MeshPlace>& covering) const {
@@ -281,8 +272,7 @@ std::optional<MeshPlace> HemisphereGather::place_of(
       covered ? covering : lookup_.nearest(hit.point, hit.normal);
   if (!place || !much_closer(receiver, hit, *place, covered)) return place;
   const auto own = lookup_.covering(receiver.point, receiver.normal);
-  if (!own) return place;
-  return coarseness(receiver.point, *own) < coarseness(hit.point, *place) ? own : place;
+  return own ? own : place;
 }
 
 Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,

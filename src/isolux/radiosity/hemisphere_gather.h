@@ -80,7 +80,6 @@ class HemisphereGather {
                                     const std::optional<MeshPlace>& covering) const;
   bool much_closer(const Receiver& receiver, const SurfaceHit& hit, const MeshPlace& place,
                    bool covered) const;
-  double coarseness(const Vec3& point, const MeshPlace& place) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
                           std::span<const Rgb> irradiance);
   void divide(const Receiver& receiver, const Frame& frame, double cosine, double sine,
