@@ -9,7 +9,7 @@ namespace {
 
 /// By vertex: how far from it what lies over it may stand for it to be covered, m.
 std::vector<double> reaches(const Triangulation& mesh, std::span<const Facet> facets) {
-  constexpr double kCovered = 0.25;  // of the longest side of its triangles
+  constexpr double kCovered = 0.03;  // of the longest side of its triangles
   std::vector<double> reach(mesh.vertices().size());
   for (const Facet& facet : facets) {
     double longest = 0;
@@ -25,17 +25,19 @@ std::vector<double> reaches(const Triangulation& mesh, std::span<const Facet> fa
 VertexSight::VertexSight(const Triangulation& mesh, const FacetGrids& grids, const RayCaster& rays)
     : mesh_(mesh), grids_(grids), walk_(rays, mesh.rules().normal_tolerance) {
   const std::vector<double> reach = reaches(mesh, grids.facets());
-  std::vector<char> covered(reach.size());
+  covered_vertices_.resize(reach.size());
   const double near = 2 * rays.epsilon();
   parallel_for(reach.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Vertex& vertex = mesh.vertex(static_cast<VertexId>(v));
-      covered[v] = reach[v] > near && rays.occluded({vertex.position + vertex.normal * near,
-                                                     vertex.position + vertex.normal * reach[v]});
+      covered_vertices_[v] =
+          reach[v] > near && rays.occluded({vertex.position + vertex.normal * near,
+                                            vertex.position + vertex.normal * reach[v]});
     }
   });
   for (const Facet& facet : grids.facets()) {
-    covered_.push_back(std::ranges::any_of(facet.vertices, [&](VertexId v) { return covered[v]; }));
+    covered_.push_back(
+        std::ranges::any_of(facet.vertices, [&](VertexId v) { return covered_vertices_[v]; }));
   }
 }
 
@@ -59,7 +61,10 @@ std::optional<MeshPlace> VertexSight::place(const SurfacePoint& from) const {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       double& w = place.weights[k];
-      if (w < kLittle || !sees(from, place.vertices[k])) w = 0;
+      const VertexId v = place.vertices[k];
+      // Over which nothing lies, it is seen in the sheet that the point is on.
+      const bool plain = &candidate == candidates.data() && !covered_vertices_[v];
+      if (w < kLittle || !(plain || sees(from, v))) w = 0;
       sum += w;
     }
     if (sum <= most) continue;

@@ -29,6 +29,7 @@ class VertexSight {
   const Triangulation& mesh_;
   const FacetGrids& grids_;
   SurfaceWalk walk_;
+  std::vector<char> covered_vertices_;
   std::vector<char> covered_;  // by facet: whether vertices of it are
 };
 
