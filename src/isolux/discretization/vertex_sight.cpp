@@ -62,7 +62,7 @@ std::optional<MeshPlace> VertexSight::place(const SurfacePoint& from) const {
     for (std::size_t k = 0; k < 3; ++k) {
       double& w = place.weights[k];
       const VertexId v = place.vertices[k];
-      // Over which nothing lies, it is seen in the sheet that the point is on.
+      // In the sheet that the point is on, a vertex that nothing covers is in sight.
       const bool plain = &candidate == candidates.data() && !covered_vertices_[v];
       if (w < kLittle || !(plain || sees(from, v))) w = 0;
       sum += w;
