@@ -16,7 +16,8 @@ Bounds Scene::bounds() const {
 }
 
 bool Scene::has_light() const {
-  return std::any_of(objects.begin(), objects.end(), [](const Object& o) { return o.emits(); }) ||
+  return (sky && sky->shines()) ||
+         std::any_of(objects.begin(), objects.end(), [](const Object& o) { return o.emits(); }) ||
          std::any_of(sources.begin(), sources.end(),
                      [](const Source& s) { return max_channel(s.intensity) > 0; });
 }

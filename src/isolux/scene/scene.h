@@ -9,6 +9,7 @@
 #include "isolux/core/color.h"
 #include "isolux/core/vec3.h"
 #include "isolux/geometry/shape.h"
+#include "isolux/scene/sky.h"
 #include "isolux/scene/source.h"
 
 namespace isolux {
@@ -61,6 +62,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Object> objects;
   std::vector<Source> sources;  ///< lights besides the objects that emit
+  std::optional<Sky> sky;       ///< what surrounds it; without, it is dark outside
   std::vector<Camera> cameras;
   std::string source;      ///< the text it was read from, in the native format
   std::string unit = "m";  ///< the unit of the plain numbers in `source`
@@ -69,7 +71,7 @@ struct Scene {
   /// The camera of that name (the first where `name` is empty). Throws InputError that lists the
   /// names there are.
   const Camera& camera(const std::string& name) const;
-  /// Whether an object or a source gives light.
+  /// Whether an object, a source or the sky gives light.
   bool has_light() const;
   const Material& material_of(std::uint32_t object) const {
     return materials[objects[object].material];
