@@ -73,32 +73,43 @@ std::optional<LightReach::Place> LightReach::reflected(const Ray& ray, Index& ob
   return above(hit->point, hit->normal);
 }
 
+/// Lights, then sources, then the sky.
+std::size_t LightReach::kinds() const {
+  const Scene& scene = rays_.scene();
+  return lights_.size() + scene.sources.size() + (scene.sky && scene.sky->shines());
+}
+
+/// Of light of that kind.
+Ray LightReach::first_ray(std::size_t kind, Random& random) const {
+  const Scene& scene = rays_.scene();
+  const double radius = 0.5 * diagonal_;
+  if (kind < lights_.size()) {
+    const Place& from = lights_[kind][random.below(lights_[kind].size())];
+    return {from.position, diffuse_direction(from.normal, random)};
+  }
+  if (kind == lights_.size() + scene.sources.size()) {
+    const Line line = random_line(scene.bounds().center(), radius, random);
+    return {line.point - line.direction * (2 * radius), line.direction};
+  }
+  const Source& source = scene.sources[kind - lights_.size()];
+  if (source.kind != Source::Kind::directional) {
+    return {source.position, random_line(source.position, 1, random).direction};
+  }
+  const Frame across(source.direction);
+  const double r = radius * std::sqrt(random.uniform());
+  const double angle = 2 * std::numbers::pi * random.uniform();
+  const Vec3 from = across.to_world({r * std::cos(angle), r * std::sin(angle), -2 * radius});
+  return {scene.bounds().center() + from, source.direction};
+}
+
 void LightReach::send_light(std::uint64_t seed) {
   const Scene& scene = rays_.scene();
-  const std::size_t kinds = lights_.size() + scene.sources.size();
-  if (kinds == 0) return;
+  if (kinds() == 0) return;
   std::vector<std::size_t> known(scene.objects.size());
-  const Vec3 center = scene.bounds().center();
-  const double radius = 0.5 * diagonal_;
-  const std::size_t paths = std::max(kLeastPaths, kPathsOfLight * kinds);
+  const std::size_t paths = std::max(kLeastPaths, kPathsOfLight * kinds());
   for (std::size_t path = 0; path < paths; ++path) {
     Random random(seed, ~path);
-    Ray ray;
-    if (const std::size_t kind = path % kinds; kind < lights_.size()) {
-      const Place& from = lights_[kind][random.below(lights_[kind].size())];
-      ray = {from.position, diffuse_direction(from.normal, random)};
-    } else {
-      const Source& source = scene.sources[kind - lights_.size()];
-      const Line line = random_line(source.position, 1, random);
-      ray = {source.position, line.direction};
-      if (source.kind == Source::Kind::directional) {
-        const Frame across(source.direction);
-        const double r = radius * std::sqrt(random.uniform());
-        const double angle = 2 * std::numbers::pi * random.uniform();
-        ray = {center + across.to_world({r * std::cos(angle), r * std::sin(angle), -2 * radius}),
-               source.direction};
-      }
-    }
+    Ray ray = first_ray(path % kinds(), random);
     for (int i = 0; i < kReflections; ++i) {
       Index object = 0;
       const auto place = reflected(ray, object);
@@ -117,10 +128,13 @@ bool LightReach::opens_to(const Place& place, const Vec3& from) const {
 /// Whether one light, chosen at random, lights the place.
 bool LightReach::lit_straight(const Place& place, Random& random) const {
   const auto& sources = rays_.scene().sources;
-  const std::size_t kind = random.below(lights_.size() + sources.size());
+  const std::size_t kind = random.below(kinds());
   if (kind < lights_.size()) {
     const Place& light = lights_[kind][random.below(lights_[kind].size())];
     return !rays_.occluded({place.position, light.position});
+  }
+  if (kind == lights_.size() + sources.size()) {
+    return !rays_.nearest({place.position, diffuse_direction(place.normal, random)});
   }
   const Source& source = sources[kind - lights_.size()];
   if (source.kind != Source::Kind::directional) return opens_to(place, source.position);
@@ -133,7 +147,7 @@ bool LightReach::sees_lit_place(const Place& place, Random& random) const {
 }
 
 bool LightReach::sees_light(const SurfacePoint& point, Random& random) const {
-  if (lights_.empty() && rays_.scene().sources.empty()) return true;
+  if (kinds() == 0) return true;
   const Place start = above(point.position, point.normal);
   const auto& cameras = rays_.scene().cameras;
   if (std::any_of(cameras.begin(), cameras.end(),

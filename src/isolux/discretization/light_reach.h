@@ -42,6 +42,8 @@ class LightReach {
   };
   Place above(const Vec3& position, const Vec3& normal) const;
   void find_lights(std::uint64_t seed);
+  std::size_t kinds() const;
+  Ray first_ray(std::size_t kind, Random& random) const;
   void send_light(std::uint64_t seed);
   std::optional<Place> reflected(const Ray& ray, std::uint32_t& object) const;
   bool opens_to(const Place& place, const Vec3& from) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "isolux/discretization/interpolation.h"
 
@@ -33,10 +34,13 @@ SurfaceSampler::SurfaceSampler(const Solution& solution)
 
 SurfaceSample SurfaceSampler::sample(const Ray& ray, Scratch& scratch) const {
   const std::optional<SurfaceHit> hit = rays_.nearest(ray);
-  if (!hit) return {};
+  const Scene& scene = solution_.scene;
+  if (!hit) {
+    return {SampleKind::background,
+            scene.sky ? scene.sky->luminance(ray.direction) * std::numbers::pi : Rgb{}};
+  }
   if (dot(hit->normal, ray.direction) >= 0) return {SampleKind::dark, {}};
 
-  const Scene& scene = solution_.scene;
   const Object& object = scene.objects[hit->surface.object];
   const Rgb reflectance = scene.material_of(hit->surface.object).reflectance;
   const Rgb emission = hit->back ? Rgb{} : object.exitance;

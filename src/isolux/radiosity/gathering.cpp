@@ -120,8 +120,8 @@ double Gathering::unshot_part() const {
              : 1;
 }
 
-/// Of all objects, lm: of those whose area is not known, as the cover has them. Of sources, what
-/// arrives.
+/// Of all objects, lm: of those whose area is not known, as the cover has them. Of sources and the
+/// sky, what arrives.
 double Gathering::emitted_flux() const {
   const auto& objects = rays_.scene().objects;
   std::vector<char> area_known;
@@ -136,6 +136,7 @@ double Gathering::emitted_flux() const {
     flux += luminance(triangle.emission) * triangle.area;
   }
   for (const Source& source : rays_.scene().sources) flux += arriving_flux(rays_, source);
+  if (rays_.scene().sky) flux += arriving_flux(rays_, *rays_.scene().sky);
   return flux;
 }
 

@@ -270,7 +270,9 @@ std::vector<VertexId> Gathering::outdated_vertices() const {
   std::vector<char> touched(state_.light.size());  // ends of such edges
   for (const auto& [edge, error] : state_.split_since)
     touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
+  const std::uint32_t outside = HemisphereGather::outside_of(rays_.scene());
   const auto gain_of = [&](const Site& site) {
+    if (site.surface == outside) return 0.0;
     const auto& v = site.vertices;
     if (touched[v[0]] + touched[v[1]] + touched[v[2]] < 2) return 0.0;
     double most = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "isolux/core/random.h"
+#include "isolux/radiosity/hemisphere_rays.h"
 
 namespace isolux {
 namespace {
@@ -14,49 +14,15 @@ constexpr double kBright = 2;
 constexpr double kMostOfAll = 1.0 / 400;
 constexpr double kUsualGrid = 16;
 
-// Points this close to the rim would give rays inside the surface they start from.
-constexpr double kRim = 0.99995;
-
-/// A point of the square [−1, 1]² or of the unit disk.
-struct Point2 {
-  double x, y;
-};
-
 constexpr double square(double x) { return x * x; }
 
-constexpr double kEighth = std::numbers::pi / 4;
-
-/// The square's point on the disk: rings of the square become rings of the disk, areas keep their
-/// ratios (Shirley & Chiu 1997).
-Point2 to_disk(const Point2& p) {
-  if (p.x == 0 && p.y == 0) return {0, 0};
-  const bool flat = std::abs(p.x) > std::abs(p.y);
-  const double radius = flat ? p.x : p.y;
-  const double angle = flat ? kEighth * (p.y / p.x) : 2 * kEighth - kEighth * (p.x / p.y);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
-}
-
-/// The way back. Distances grow by a factor of kMostStretch at most.
-constexpr double kMostStretch = 1.76;
-Point2 to_square(const Point2& p) {
-  const double radius = std::hypot(p.x, p.y);
-  if (std::abs(p.x) > std::abs(p.y)) {
-    return {std::copysign(radius, p.x), radius * std::atan(p.y / std::abs(p.x)) / kEighth};
-  }
-  if (p.y == 0) return {0, 0};
-  return {radius * std::atan(p.x / std::abs(p.y)) / kEighth, std::copysign(radius, p.y)};
-}
-
-Point2 turned(const Point2& p, double cosine, double sine) {
-  return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
-}
-
-/// The numbers of a row's rays, those of a tile of cells one after the other: neighbours in this
-/// order run close together.
-void tile_by_tile(const Row<Landing>& row, std::size_t count, std::vector<std::uint32_t>& order) {
+/// The numbers of a row's rays from `first` on, those of a tile of cells one after the other:
+/// neighbours in this order run close together.
+void tile_by_tile(const Row<Landing>& row, std::size_t first, std::size_t count,
+                  std::vector<std::uint32_t>& order) {
   constexpr int kTile = 4;  // cells a side
   order.clear();
-  for (int top = 0; top < row.grid; top += kTile) {
+  for (int top = 0; first == 0 && top < row.grid; top += kTile) {
     for (int left = 0; left < row.grid; left += kTile) {
       for (int j = top; j < std::min(top + kTile, row.grid); ++j) {
         for (int i = left; i < std::min(left + kTile, row.grid); ++i) {
@@ -65,7 +31,9 @@ void tile_by_tile(const Row<Landing>& row, std::size_t count, std::vector<std::u
       }
     }
   }
-  while (order.size() < count) order.push_back(static_cast<std::uint32_t>(order.size()));
+  while (first + order.size() < count) {
+    order.push_back(static_cast<std::uint32_t>(first + order.size()));
+  }
 }
 
 /// The mean over all cells of the variance of one jittered point in the cell, from the second
@@ -161,6 +129,7 @@ HemisphereGather::HemisphereGather(const RayCaster& rays, const Triangulation& m
     surfaces_.push_back({{}, emission});
   }
   surfaces_.resize(surface_count(scene));
+  if (scene.sky) sky_.emplace(*scene.sky);
   if (!irradiance.empty()) find_bright_places(mesh, separate, irradiance);
 }
 
@@ -200,13 +169,12 @@ double HemisphereGather::expected_at(const Receiver& receiver) const {
   return std::max(expected, kDim * mean_irradiance_);
 }
 
-/// Divides the cells in which bright places may lie, on a disk that is turned by an angle.
-void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, double cosine,
-                              double sine, Row<Landing>& row) const {
+/// Divides the cells in which bright places may lie.
+void HemisphereGather::divide(const Receiver& receiver, const HemisphereRays& rays,
+                              Row<Landing>& row) const {
   constexpr double kMostParts = 16;
   constexpr double kFewestParts = 3;
   constexpr double kMostRays = 2;  // for each cell of the row
-  row.divided.clear();
   if (bright_.empty()) return;
   thread_local std::vector<BrightPlaces::Cone> cones;
   const double half_a_cell = 1.0 / row.grid;
@@ -218,10 +186,8 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
   thread_local std::vector<double> brightest;  // by cell, lm/m²
   brightest.assign(row.cells(), 0);
   for (const BrightPlaces::Cone& cone : cones) {
-    Point2 p = turned({dot(cone.direction, frame.u), dot(cone.direction, frame.v)}, cosine, -sine);
-    const double off = std::hypot(p.x, p.y);
+    const Point2 p = rays.square_of(cone.direction);
     const double reach = kMostStretch * cone.chord;
-    p = to_square(off > 1 ? Point2{p.x / off, p.y / off} : p);
     const auto cell = [&](double x) {
       return std::clamp(static_cast<int>((x + 1) / 2 * row.grid), 0, row.grid - 1);
     };
@@ -240,6 +206,47 @@ void HemisphereGather::divide(const Receiver& receiver, const Frame& frame, doub
     const double n = scale * parts(brightest[c]);
     if (n < kFewestParts) continue;
     row.divided.push_back({static_cast<std::uint16_t>(c), static_cast<std::uint16_t>(n)});
+  }
+}
+
+/// Divides the cells at the rims of what is seen of the sky, as their neighbours tell: what a
+/// cell's own ray met has no say, so that on average the row brings what is there.
+void HemisphereGather::divide_rims(Row<Landing>& row) const {
+  // Of n² rays in a cell with a rim the variance is some n⁻³ of a single one's, the square of what
+  // the sky brings more than the rest: to spread rays well, n goes with that to the power of 2/5.
+  constexpr double kParts = 1.5, kMostParts = 16;
+  constexpr double kMostRays = 2;  // for each cell of the row
+  const std::uint32_t outside = outside_of(rays_.scene());
+  const auto seen = [&](int i, int j) {
+    return row.rays[static_cast<std::size_t>(j * row.grid + i)].site.surface == outside;
+  };
+  thread_local std::vector<std::uint16_t> rims;
+  rims.clear();
+  std::size_t open = 0;
+  for (int j = 0; j < row.grid; ++j) {
+    for (int i = 0; i < row.grid; ++i) {
+      open += seen(i, j);
+      int beside = 0, of_sky = 0;
+      for (int y = std::max(j - 1, 0); y <= std::min(j + 1, row.grid - 1); ++y) {
+        for (int x = std::max(i - 1, 0); x <= std::min(i + 1, row.grid - 1); ++x) {
+          if (x == i && y == j) continue;
+          ++beside;
+          of_sky += seen(x, y);
+        }
+      }
+      if (of_sky > 0 && of_sky < beside) rims.push_back(std::uint16_t(j * row.grid + i));
+    }
+  }
+  if (rims.empty() || open == 0) return;
+  const double most = std::sqrt(kMostRays * double(row.cells()) / double(rims.size()));
+  const double parts = kParts * std::pow(double(row.cells()) / double(open), 0.4);
+  const auto n = static_cast<std::uint16_t>(std::min({parts, most, kMostParts}));
+  if (n < 2) return;
+  thread_local std::vector<std::uint8_t> divided;
+  divided.assign(row.cells(), 0);
+  for (const DividedCell& cell : row.divided) divided[cell.cell] = 1;
+  for (const std::uint16_t cell : rims) {
+    if (!divided[cell]) row.divided.push_back({cell, n});
   }
 }
 
@@ -275,64 +282,40 @@ std::optional<MeshPlace> HemisphereGather::place_of(
   return own ? own : place;
 }
 
-Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,
-                                     const std::optional<SurfaceHit>& hit,
-                                     const std::optional<MeshPlace>& covering) const {
-  const Landing outside{{static_cast<std::uint32_t>(surfaces_.size() - 1), {}}};
-  const Landing black{{outside.site.surface - 1, {}}};
-  if (!hit) return outside;
-  if (dot(hit->normal, ray.direction) >= 0) return black;
-  const std::uint32_t surface = 3 * hit->surface.object;
-  const std::optional<MeshPlace> place = place_of(receiver, *hit, covering);
-  if (!place) return hit->back ? black : Landing{{surface + 2, {}}};
-  Landing landing{{surface + hit->back, place->vertices}};
+Landing HemisphereGather::landing_at(std::uint32_t surface, const MeshPlace& place) {
+  Landing landing{{surface, place.vertices}};
   for (std::size_t k = 0; k < 2; ++k) {
-    landing.weights[k] = static_cast<std::uint16_t>(place->weights[k + 1] / kSiteWeightUnit);
+    landing.weights[k] = static_cast<std::uint16_t>(place.weights[k + 1] / kSiteWeightUnit);
   }
   return landing;
 }
 
-void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t seed,
-                             std::uint64_t id, Row<Landing>& row) const {
-  Random random(seed, id);
-  const Frame frame(receiver.normal);
-  const Vec3 origin = receiver.point + receiver.normal * rays_.epsilon();
-  const double turn = 2 * std::numbers::pi * random.uniform();
-  const double cosine = std::cos(turn), sine = std::sin(turn);
-  row.grid = grid;
-  divide(receiver, frame, cosine, sine, row);
-  thread_local std::vector<Ray> rays;
-  rays.clear();
-  const auto send = [&](double i, double j) {
-    const Point2 square{2 * i / grid - 1, 2 * j / grid - 1};
-    const Point2 p = turned(to_disk({square.x * kRim, square.y * kRim}), cosine, sine);
-    const double squared = p.x * p.x + p.y * p.y;
-    rays.push_back({origin, frame.to_world({p.x, p.y, std::sqrt(1 - squared)})});
-  };
-  for (int j = 0; j < grid; ++j) {
-    for (int i = 0; i < grid; ++i) {
-      const double x = i + random.uniform();
-      send(x, j + random.uniform());
-    }
-  }
-  for (const auto& [cell, parts] : row.divided) {
-    for (int j = 0; j < parts; ++j) {
-      for (int i = 0; i < parts; ++i) {
-        const double x = cell % grid + (i + random.uniform()) / parts;
-        send(x, cell / grid + (j + random.uniform()) / parts);
-      }
-    }
-  }
+Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,
+                                     const std::optional<SurfaceHit>& hit,
+                                     const std::optional<MeshPlace>& covering) const {
+  const std::uint32_t outside = outside_of(rays_.scene());
+  const Landing black{{outside - 1, {}}};
+  if (!hit) return sky_ ? landing_at(outside, sky_->place(ray.direction)) : Landing{{outside, {}}};
+  if (dot(hit->normal, ray.direction) >= 0) return black;
+  const std::uint32_t surface = 3 * hit->surface.object;
+  const std::optional<MeshPlace> place = place_of(receiver, *hit, covering);
+  if (!place) return hit->back ? black : Landing{{surface + 2, {}}};
+  return landing_at(surface + hit->back, *place);
+}
+
+/// Where rays of the row from number `first` on land.
+void HemisphereGather::land(const Receiver& receiver, std::span<const Ray> rays, std::size_t first,
+                            Row<Landing>& row) const {
   thread_local std::vector<std::uint32_t> order;
-  tile_by_tile(row, rays.size(), order);
+  tile_by_tile(row, first, rays.size(), order);
   thread_local std::vector<Ray> in_order;
   in_order.clear();
   for (const std::uint32_t i : order) in_order.push_back(rays[i]);
   thread_local std::vector<std::optional<SurfaceHit>> hits;
-  hits.resize(rays.size());
+  hits.resize(order.size());
   rays_.nearest(in_order, hits);
   thread_local std::vector<std::optional<MeshPlace>> covering;
-  covering.resize(rays.size());
+  covering.resize(order.size());
   lookup_.covering(hits, covering);
   row.rays.resize(rays.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -340,12 +323,34 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   }
 }
 
+void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t seed,
+                             std::uint64_t id, Row<Landing>& row) const {
+  Random random(seed, id);
+  HemisphereRays rays(receiver, rays_.epsilon(), grid, random);
+  row.grid = grid;
+  row.divided.clear();
+  divide(receiver, rays, row);
+  rays.send_to_cells();
+  for (const DividedCell& cell : row.divided) rays.send_to_parts(cell);
+  land(receiver, rays.rays(), 0, row);
+  if (!sky_) return;
+  const std::size_t landed = row.rays.size(), known = row.divided.size();
+  divide_rims(row);
+  if (row.divided.size() == known) return;
+  for (std::size_t k = known; k < row.divided.size(); ++k) rays.send_to_parts(row.divided[k]);
+  land(receiver, rays.rays(), landed, row);
+}
+
 SiteLight HemisphereGather::light_of(const Site& site, std::span<const Rgb> irradiance) const {
-  const Surface& surface = surfaces_[site.surface];
   const auto narrow = [](const Rgb& c) {
     return std::array{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
   };
   const auto& [a, b, c] = site.vertices;
+  if (shows_sky(site)) {
+    const std::span<const Rgb> sky = sky_->radiosity();
+    return {narrow(sky[a]), narrow(sky[b] - sky[a]), narrow(sky[c] - sky[a])};
+  }
+  const Surface& surface = surfaces_[site.surface];
   return {narrow(surface.emission + surface.reflectance * irradiance[a]),
           narrow(surface.reflectance * (irradiance[b] - irradiance[a])),
           narrow(surface.reflectance * (irradiance[c] - irradiance[a]))};
@@ -353,6 +358,7 @@ SiteLight HemisphereGather::light_of(const Site& site, std::span<const Rgb> irra
 
 Rgb HemisphereGather::reflected(const Row<Landing>& row, std::span<const Rgb> irradiance) const {
   return mean(row, [&](const Landing& landing) {
+    if (shows_sky(landing.site)) return Rgb{};
     return light_of(landing.site, irradiance).at(landing.weights) -
            surfaces_[landing.site.surface].emission;
   });

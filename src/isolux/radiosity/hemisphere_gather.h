@@ -9,9 +9,12 @@
 #include "isolux/radiosity/bright_places.h"
 #include "isolux/radiosity/links.h"
 #include "isolux/radiosity/row.h"
+#include "isolux/radiosity/sky_dome.h"
 #include "isolux/radiosity/visibility.h"
 
 namespace isolux {
+
+class HemisphereRays;
 
 /// Where a ray over a hemisphere lands: a place in the mesh, and whose surface it is.
 struct Landing {
@@ -27,8 +30,8 @@ struct Gathered {
 
 /// Light gathered by rays over the hemisphere (the paper's rays turned round): each ray finds the
 /// true surface, and the radiosity there is ρ E, E interpolated in the mesh, plus the emission of
-/// objects that are not lights of their own. Where the rays land is kept, so that transport is
-/// repeated without rays while E changes.
+/// objects that are not lights of their own; a ray that leaves the scene brings the light of its
+/// sky. Where the rays land is kept, so that transport is repeated without rays while E changes.
 ///
 /// The directions are those of a square of grid × grid cells, one point jittered in each, mapped to
 /// the disk (Shirley & Chiu 1997), turned by an angle of the receiver's own and lifted to the
@@ -54,11 +57,17 @@ class HemisphereGather {
   /// The part of gather() that is reflected, without what the surfaces emit by themselves.
   Rgb reflected(const Row<Landing>& row, std::span<const Rgb> irradiance) const;
 
-  /// Whether no light comes back from there: what leaves the scene, or meets a black back.
+  /// Whether no light is sent back from there: what leaves the scene, or meets a black back.
   bool lost(const Site& site) const { return site.surface >= surfaces_.size() - 2; }
 
   /// Site::surface is less than this.
   static std::size_t surface_count(const Scene& scene) { return 3 * scene.objects.size() + 2; }
+
+  /// Site::surface of what leaves the scene; where that has a sky, the vertices are SkyDome's
+  /// nodes.
+  static std::uint32_t outside_of(const Scene& scene) {
+    return static_cast<std::uint32_t>(surface_count(scene) - 1);
+  }
 
   /// The irradiance that the row's surfaces give with `irradiance` (lx) at the mesh's vertices.
   Rgb gather(const Row<Landing>& row, std::span<const Rgb> irradiance) const;
@@ -73,6 +82,10 @@ class HemisphereGather {
   SiteLight light_of(const Site& site, std::span<const Rgb> irradiance) const;
 
  private:
+  bool shows_sky(const Site& site) const { return sky_ && site.surface == surfaces_.size() - 1; }
+
+  static Landing landing_at(std::uint32_t surface, const MeshPlace& place);
+
   /// Where a ray from the receiver lands, by what it meets first, and the triangle over that.
   Landing landing_of(const Receiver& receiver, const Ray& ray, const std::optional<SurfaceHit>& hit,
                      const std::optional<MeshPlace>& covering) const;
@@ -82,8 +95,10 @@ class HemisphereGather {
                    bool covered) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
                           std::span<const Rgb> irradiance);
-  void divide(const Receiver& receiver, const Frame& frame, double cosine, double sine,
-              Row<Landing>& row) const;
+  void divide(const Receiver& receiver, const HemisphereRays& rays, Row<Landing>& row) const;
+  void divide_rims(Row<Landing>& row) const;
+  void land(const Receiver& receiver, std::span<const Ray> rays, std::size_t first,
+            Row<Landing>& row) const;
   double expected_at(const Receiver& receiver) const;
 
   /// What a surface does to light.
@@ -96,6 +111,7 @@ class HemisphereGather {
   const Triangulation& mesh_;
   MeshLookup lookup_;
   std::vector<Surface> surfaces_;  // by Site::surface
+  std::optional<SkyDome> sky_;
   BrightPlaces bright_;
   std::vector<float> irradiance_;  // by vertex, lx, if there are bright places
   double mean_irradiance_ = 0;     // lx

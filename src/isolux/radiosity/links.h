@@ -15,7 +15,7 @@ namespace isolux {
 struct Site {
   /// Which entry of the surfaces' table: 3 × object, + 1 on its back, which does not emit, + 2
   /// where it only emits, the mesh having no vertex there; then an entry for what is black, because
-  /// it faces away, and last one for the outside, where nothing is.
+  /// it faces away, and last one for the outside: dark, or the sky.
   std::uint32_t surface = 0;
   std::array<VertexId, 3> vertices{};
 

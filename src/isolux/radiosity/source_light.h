@@ -4,6 +4,7 @@
 
 #include "isolux/radiosity/form_factor.h"
 #include "isolux/raycast/ray_caster.h"
+#include "isolux/scene/sky.h"
 #include "isolux/scene/source.h"
 
 namespace isolux {
@@ -16,5 +17,8 @@ void add_source_light(const RayCaster& rays, const Source& source,
 /// The part of a source's light that arrives at some surface's lit side, lm, by stratified rays:
 /// all of it in a closed room (then exact).
 double arriving_flux(const RayCaster& rays, const Source& source);
+
+/// The same of a sky, and the ground below its horizon.
+double arriving_flux(const RayCaster& rays, const Sky& sky);
 
 }  // namespace isolux

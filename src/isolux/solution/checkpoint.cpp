@@ -218,13 +218,15 @@ void check(const Row<Link>& row) {
   if (count != row.rays.size()) damaged("links");
 }
 
-GatheringState state_from_json(const json& object, Triangulation mesh, std::size_t surface_count) {
+GatheringState state_from_json(const json& object, Triangulation mesh, const Scene& scene) {
   GatheringState state(std::move(mesh));
   const std::size_t vertex_count = state.mesh.vertices().size();
   for (const Site& site : get<Site>(object, "sites")) {
+    const std::uint32_t outside = HemisphereGather::outside_of(scene);
+    const std::size_t count = site.surface == outside ? SkyDome::node_count() : vertex_count;
     const bool known = std::all_of(site.vertices.begin(), site.vertices.end(),
-                                   [&](VertexId v) { return v < vertex_count; });
-    if (!known || site.surface >= surface_count) damaged("sites");
+                                   [&](VertexId v) { return v < count; });
+    if (!known || site.surface > outside) damaged("sites");
     state.sites.add(site);
   }
   const auto links = get<Link>(object, "links");
@@ -309,8 +311,7 @@ GatheringState decode(const std::string& bytes, const Scene& scene, const Option
     }
   }
   Triangulation mesh = mesh_from_json(member(root, "mesh"), rules, scene.bounds());
-  return state_from_json(member(root, "state"), std::move(mesh),
-                         HemisphereGather::surface_count(scene));
+  return state_from_json(member(root, "state"), std::move(mesh), scene);
 }
 
 }  // namespace
