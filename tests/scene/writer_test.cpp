@@ -270,5 +270,40 @@ TEST(Writer, LightsWithoutASurfaceKeepEveryBit) {
   }
 }
 
+TEST(Writer, SkiesKeepEveryBit) {
+  const Scene plain = scene_with(std::make_shared<Sphere>(Vec3{}, 1));
+  EXPECT_THAT(write_scene(plain), Not(HasSubstr("sky")));
+  for (const char* yaml :
+       {"{type: overcast, illuminance: 12345.6}",
+        "{type: 7, sun: [0.3, -1, 0.7], illuminance: 9876, color: [0.9, 0.95, 1.1]}",
+        "{distribution: [-1, -0.31, 9.7, -3, 0.44], sun: [0.1, 0.2, 0.3], zenith: [0.1, 0.7, 3], "
+        "ground: 300, up: [0.1, 0, 1]}",
+        "{distribution: [0, -0.2, 0, -1, 0], sun: [0.1, 0.2, 0.3], zenith: 1, up: y}",
+        "{type: uniform, zenith: 0.1, ground: [0.3, 0.2, 0.1], up: [1, 2, 3]}"}) {
+    Scene scene = plain;
+    scene.sky = read_scene(write_scene(plain) + "sky: " + yaml + "\n", "test").sky;
+    const std::string text = write_scene(scene);
+    const Scene back = read_scene(text, "written");
+    EXPECT_EQ(write_scene(back), text);
+    ASSERT_TRUE(back.sky) << yaml;
+    EXPECT_EQ(back.sky->distribution, scene.sky->distribution) << yaml;
+    EXPECT_EQ(back.sky->up, scene.sky->up) << yaml;
+    EXPECT_EQ(back.sky->sun, scene.sky->sun) << yaml;
+    EXPECT_EQ(back.sky->zenith, scene.sky->zenith) << yaml;
+    EXPECT_EQ(back.sky->ground, scene.sky->ground) << yaml;
+  }
+}
+
+TEST(Writer, SkiesAreLaidOutForPeople) {
+  Scene scene = scene_with(std::make_shared<Sphere>(Vec3{}, 1));
+  scene.sky = Sky{standard_sky(12), {0, 0, 1}, {0, -0.6, 0.8}, gray(4000), gray(300)};
+  EXPECT_THAT(write_scene(scene), HasSubstr("\n"
+                                            "sky:\n"
+                                            "  type: 12\n"
+                                            "  sun: [0, -0.6, 0.8]\n"
+                                            "  zenith: 4000\n"
+                                            "  ground: 300\n"));
+}
+
 }  // namespace
 }  // namespace isolux

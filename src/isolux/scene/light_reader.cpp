@@ -28,16 +28,6 @@ double read_flux(const Value& value) {
   return flux;
 }
 
-/// An amount of light with its colour, in three channels or as a number and `color`.
-Rgb read_amount(const Fields& fields, std::string_view key) {
-  const Value value = fields.require(key);
-  if (value.is_list() && fields.find("color")) {
-    value.fail(
-        fmt::format("{} in three channels has its colour already: remove 'color'", in_quotes(key)));
-  }
-  return value.color() * read_hue(fields);
-}
-
 /// `intensity` (cd), or a `flux` (lm) that the whole beam shares.
 void read_strength(const Value& value, const Fields& fields, Source& source) {
   const std::optional<Value> intensity = fields.find("intensity"), flux = fields.find("flux");
@@ -91,6 +81,15 @@ void read_directional(const Value& value, Source& source) {
 }
 
 }  // namespace
+
+Rgb read_amount(const Fields& fields, std::string_view key) {
+  const Value value = fields.require(key);
+  if (value.is_list() && fields.find("color")) {
+    value.fail(
+        fmt::format("{} in three channels has its colour already: remove 'color'", in_quotes(key)));
+  }
+  return value.color() * read_hue(fields);
+}
 
 Source read_source(const Value& light, std::size_t number) {
   using Read = void (*)(const Value&, Source&);

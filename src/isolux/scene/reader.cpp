@@ -10,6 +10,7 @@
 #include "isolux/scene/light_reader.h"
 #include "isolux/scene/part_reader.h"
 #include "isolux/scene/shape_reader.h"
+#include "isolux/scene/sky_reader.h"
 #include "isolux/scene/spelling.h"
 #include "isolux/scene/value.h"
 
@@ -79,8 +80,8 @@ Scene read_document(const YamlDocument& document, const ReadingCallback& progres
   ReadingContext context{document.file};
   const Value root(context, *document.root, "scene");
   check_version(root);
-  const Fields fields(
-      root, {"isolux", "name", "unit", "materials", "shapes", "objects", "lights", "cameras"});
+  const Fields fields(root, {"isolux", "name", "unit", "materials", "shapes", "objects", "lights",
+                             "sky", "cameras"});
   Scene scene;
   if (const auto name = fields.find("name")) scene.name = name->text();
   if (const auto unit = fields.find("unit")) {
@@ -113,6 +114,7 @@ Scene read_document(const YamlDocument& document, const ReadingCallback& progres
       scene.sources.push_back(read_source(light.labelled("light"), scene.sources.size() + 1));
     }
   }
+  if (const auto sky = fields.find("sky")) scene.sky = read_sky(*sky);
   if (const auto cameras = fields.find("cameras")) {
     for (const auto& [name, value] : cameras->entries()) {
       scene.cameras.push_back(read_camera(name, value));

@@ -18,6 +18,9 @@ struct SkyDistribution {
 
   bool operator==(const SkyDistribution&) const = default;
 
+  /// Whether it matters where the sun is.
+  bool depends_on_sun() const { return c != 0 || e != 0; }
+
   double gradation(double cos_z) const;
   double indicatrix(double cos_chi) const;
 };
@@ -48,7 +51,16 @@ struct Sky {
 };
 
 /// The illuminance of an open horizontal surface by a sky whose luminance is 1 cd/m² in the zenith,
-/// lx.
+/// lx; to 1e-4, also where the sky falls off from the sun as steeply as with d = −100.
 double horizontal_illuminance(const SkyDistribution& distribution, double cos_sun);
+/// That of a surface under this sky, by the sky alone, lx.
+Rgb horizontal_illuminance(const Sky& sky);
+
+/// What the luminance of a sky stays within, in parts of that in the zenith: not finite where the
+/// zenith has none, `least` negative where the sky is so anywhere.
+struct LuminanceRange {
+  double least, most;
+};
+LuminanceRange relative_range(const SkyDistribution& distribution, double cos_sun);
 
 }  // namespace isolux

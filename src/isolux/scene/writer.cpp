@@ -81,6 +81,22 @@ void append_source(std::string& text, const Source& source) {
   fmt::format_to(std::back_inserter(text), "{}: {}\n", kind, flow_map(entries));
 }
 
+/// A sky is as its type says, or its coefficients; those of type 16, which has one more, only
+/// there.
+void append_sky(std::string& text, const Sky& sky) {
+  const SkyDistribution& d = sky.distribution;
+  int type = 1;
+  while (type <= kSkyTypes && standard_sky(type) != d) ++type;
+  text += "\nsky:\n";
+  text += type <= kSkyTypes
+              ? fmt::format("  type: {}\n", type)
+              : "  distribution: " + to_yaml_list(std::array{d.a, d.b, d.c, d.d, d.e}) + '\n';
+  if (d.depends_on_sun() || sky.sun != sky.up) text += "  sun: " + to_yaml(sky.sun) + '\n';
+  text += "  zenith: " + to_yaml(sky.zenith) + '\n';
+  if (sky.ground != Rgb{}) text += "  ground: " + to_yaml(sky.ground) + '\n';
+  if (sky.up != Sky{}.up) text += "  up: " + to_yaml(sky.up) + '\n';
+}
+
 void append_camera(std::string& text, const Camera& camera, const std::string& key) {
   Entries entries{{"eye", to_yaml(camera.eye)}, {"look_at", to_yaml(camera.look_at)}};
   if (camera.up != Camera{}.up) entries.emplace_back("up", to_yaml(unit_vector(camera.up)));
@@ -121,6 +137,8 @@ std::string write_scene(const Scene& scene) {
 
   if (!scene.sources.empty()) text += "\nlights:\n";
   for (const Source& source : scene.sources) append_source(text, source);
+
+  if (scene.sky) append_sky(text, *scene.sky);
 
   if (!scene.cameras.empty()) text += "\ncameras:\n";
   const std::vector<std::string> cameras = keys_of(scene.cameras, "camera");
