@@ -56,7 +56,7 @@ std::string describe(const std::map<std::string, std::size_t>& primitives) {
 
 std::string describe_escape(const Inspection& inspection) {
   const auto& [rays, escaped, warnings] = inspection;
-  if (rays == 0) return "closed or open: not known, without light or camera";
+  if (rays == 0) return "closed or open: not known, without lamp or camera";
   if (escaped == 0) return fmt::format("closed: of {} rays of light, none leaves it", rays);
   return fmt::format("open: of {} rays of light, {:.3g} % leave it", rays,
                      100.0 * double(escaped) / double(rays));
@@ -71,13 +71,14 @@ void check(const Scene& scene, const Arguments& a, const std::vector<std::string
       "objects {}, materials {}, cameras {}, lights {} with {:.6g} lm together\n"
       "primitives: {}\n"
       "plain numbers are in {}; bounds {} m\n"
-      "{}\n"
+      "{}{}\n"
       "memory: {:.3g} MB for the scene, {:.3g} MB at most until now\n\n"
       "   area m²    flux lm  object (material), bounds in m\n",
       a.scene.path.string(), report.name.empty() ? "(no name)" : report.name, report.object_count,
       report.materials, report.cameras, report.lights, report.flux, describe(report.primitives),
-      report.unit, describe(report.bounds), describe_escape(inspection), scene_memory / 1e6,
-      peak_memory() / 1e6);
+      report.unit, describe(report.bounds),
+      report.sky ? "sky: " + describe(*report.sky) + "\n" : "", describe_escape(inspection),
+      scene_memory / 1e6, peak_memory() / 1e6);
   for (const ObjectReport& object : report.objects) text += describe(object);
   if (const std::size_t more = report.object_count - report.objects.size()) {
     text += fmt::format("{:23}and {} more\n", "", more);

@@ -46,10 +46,11 @@ std::string describe_scene(const Scene& scene) {
       "scene       {}\n"
       "            objects {}, materials {}, bounds ({:.6g} {:.6g} {:.6g}) to ({:.6g} {:.6g} "
       "{:.6g}) m\n"
-      "cameras     {}\n",
+      "cameras     {}\n{}",
       scene.name.empty() ? "(no name)" : scene.name, scene.objects.size(), scene.materials.size(),
       b.lower.x, b.lower.y, b.lower.z, b.upper.x, b.upper.y, b.upper.z,
-      cameras.empty() ? "none" : cameras);
+      cameras.empty() ? "none" : cameras,
+      scene.sky ? "sky         " + describe(report_sky(*scene.sky)) + "\n" : "");
 }
 
 std::string describe_options(const Options& o) {

@@ -55,4 +55,9 @@ void say(std::string message) {
   fmt::print(stderr, "isolux: {}\n", message);
 }
 
+std::string describe(const SkyReport& sky) {
+  return fmt::format("{:.6g} lx on an open horizontal surface, ground {:.6g} cd/m²",
+                     sky.illuminance, sky.ground);
+}
+
 }  // namespace isolux

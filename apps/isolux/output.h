@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "isolux/scene/check.h"
+
 namespace isolux {
 
 /// Checks before the work that its result can be written: the extension is one of `extensions`,
@@ -20,5 +22,8 @@ void print(std::string_view text);
 /// Writes `isolux: message` and a line's end to stderr. Characters that would break the line or
 /// steer the terminal become '?'.
 void say(std::string message);
+
+/// What reports say of a sky.
+std::string describe(const SkyReport& sky);
 
 }  // namespace isolux

@@ -403,6 +403,13 @@ objects:
         self.assertRegex(text, r"\nclosed: of \d{5} rays of light, none leaves it\n")
         self.assertIn("\nnothing doubtful\n", text)
 
+    def test_the_sky_is_a_light(self):
+        text = self.succeed("check", self.write("boxes.yaml", self.BOXES + (
+            "sky: {type: clear, sun: z, illuminance: 12000, ground: 300}\n"))).stdout
+        self.assertIn("lights 1 with 0 lm", text)
+        self.assertIn("\nsky: 12000 lx on an open horizontal surface, ground 300 cd/m²\n", text)
+        self.assertNotIn("nothing gives light", text)
+
     def test_what_is_doubtful_is_no_refusal(self):
         text = self.succeed("check", self.write("boxes.yaml", self.BOXES)).stdout
         self.assertIn("closed or open: not known", text)

@@ -176,5 +176,11 @@ TEST(WriteMgf, PartsOfASolidKeepTheirMaterials) {
   EXPECT_NEAR(areas[1], 5, 0.3);
 }
 
+TEST(WriteMgf, TheSkyIsNoted) {
+  Scene scene = one_object(std::make_shared<Sphere>(Vec3{}, 1));
+  scene.sky = Sky{};
+  EXPECT_THAT(write_mgf(scene).notes, ElementsAre("the sky is left out"));
+}
+
 }  // namespace
 }  // namespace isolux

@@ -279,6 +279,39 @@ TEST(LostLight, ALampThatFacesTheSky) {
   EXPECT_THAT(inspect(lamp("0, 1, 0", "1, 0, 0")).warnings, IsEmpty());
 }
 
+const std::string kSky = "sky: {type: overcast, illuminance: 10000}\n";
+
+TEST(OpenToTheSky, NoLightIsLostThere) {
+  const std::string ground =
+      kMaterials + "objects:\n" + object("ground", "box: {lower: [-9, -9, -1], upper: [9, 9, 0]}");
+  const auto lamp = [&](const char* u, const char* v) {
+    return ground + sheet("lamp", "0, 0, 2", u, v, ", sides: front, emission: {flux: 100}") + kSky;
+  };
+  const Inspection up = inspect(lamp("1, 0, 0", "0, 1, 0"));
+  EXPECT_THAT(up.warnings, IsEmpty());
+  EXPECT_EQ(up.escaped, up.rays) << "told all the same";
+  EXPECT_GT(up.rays, 0u);
+  EXPECT_THAT(inspect(lamp("0, 1, 0", "1, 0, 0")).warnings, IsEmpty());
+}
+
+TEST(OpenToTheSky, EyesAreAskedWhereNothingElseShines) {
+  const std::string ground =
+      kMaterials + "objects:\n" + object("ground", "box: {lower: [-9, -9, -1], upper: [9, 9, 0]}");
+  const Inspection nobody = inspect(ground + kSky);
+  EXPECT_EQ(nobody.rays, 0u);
+  EXPECT_THAT(nobody.warnings, IsEmpty());
+  const Inspection seen =
+      inspect(ground + kSky + "cameras: {eye: {eye: [0, 0, 2], look_at: [5, 5, 0]}}\n");
+  EXPECT_GT(seen.escaped, 0u);
+  EXPECT_THAT(seen.warnings, IsEmpty());
+}
+
+TEST(OpenToTheSky, AClosedRoomIsNot) {
+  EXPECT_THAT(inspect_room_with(kSky).warnings,
+              ElementsAre("no ray leaves the scene: the sky gives it no light"));
+  EXPECT_THAT(inspect_room_with("sky: {type: uniform, zenith: 0}\n").warnings, IsEmpty());
+}
+
 TEST(NoArea, ASolidOfWhichNothingIsLeftAndASpeck) {
   EXPECT_THAT(inspect_room_with(object("gone",
                                        "difference: [{box: {lower: [1, 1, 1], upper: [2, "

@@ -81,12 +81,14 @@ objects:
   - {name: ball, shape: {sphere: {center: [0.5, 0.5, 1], radius: 0.3}}, material: any, emission: {flux: 9}}
 lights:
   - {point: {position: [0, 0, 3], flux: 100}}
+sky: {type: overcast, illuminance: 10000, ground: 300}
 )";
 
 TEST(FurnaceScene, ClosesTheSceneAndLetsAllSidesGlow) {
   const Scene scene = furnace_scene(scene_of(kSheetAndBall), 50);
   ASSERT_EQ(scene.objects.size(), 4u) << "sheet, ball, the sheet's back, the box";
   EXPECT_TRUE(scene.sources.empty());
+  EXPECT_FALSE(scene.sky);
   EXPECT_EQ(scene.objects[2].name, "up (back)");
   std::set<double> reflectances;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {

@@ -97,6 +97,17 @@ TEST(Solve, StopsWhenTheCallerSaysSo) {
   EXPECT_EQ(solved.statistics.iterations, 5);
 }
 
+TEST(Solve, ThePapersMethodRefusesASky) {
+  Scene scene = paper_room();
+  scene.sky = Sky{};
+  try {
+    solve(scene, quick());
+    FAIL() << "was accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the scene has a sky"));
+  }
+}
+
 TEST(Solve, DirectLightIsTheClosedForm) {
   // On a black floor, every vertex holds the form factor of the light alone.
   const Scene scene = scene_of(R"(

@@ -94,5 +94,24 @@ TEST(Check, DarknessIsNamed) {
               Contains(HasSubstr("nothing gives light")));
 }
 
+TEST(Check, ASkyIsALight) {
+  const std::string ball = scene_text("    shape: {sphere: {center: [0, 0, 0], radius: 1}}\n");
+  EXPECT_FALSE(check(ball).sky);
+  const SceneReport lit =
+      check(ball +
+            "sky: {type: clear, sun: [0, 1, 1], illuminance: 12000, color: [1, 2, 3], "
+            "ground: 300}\n");
+  EXPECT_THAT(lit.warnings, Not(Contains(HasSubstr("nothing gives light"))));
+  EXPECT_EQ(lit.lights, 1u);
+  EXPECT_EQ(lit.flux, 0);
+  ASSERT_TRUE(lit.sky);
+  EXPECT_NEAR(lit.sky->illuminance, 12000, 1e-8);
+  EXPECT_NEAR(lit.sky->ground, 300, 1e-10);
+
+  const SceneReport night = check(ball + "sky: {type: uniform, zenith: 0}\n");
+  EXPECT_THAT(night.warnings, Contains(HasSubstr("nothing gives light")));
+  EXPECT_EQ(night.lights, 0u);
+}
+
 }  // namespace
 }  // namespace isolux

@@ -260,6 +260,7 @@ std::vector<std::string> notes_of(const Scene& scene, const SurfaceFormat& forma
     notes.push_back(
         fmt::format("lights without a surface are left out ({})", scene.sources.size()));
   }
+  if (scene.sky) notes.push_back("the sky is left out");
   const double exact = 1e-9 * scene.bounds().diagonal();
   std::vector<std::string_view> flat, near, torn;
   double deviation = 0, lost = 0;

@@ -66,8 +66,8 @@ struct Triangulated {
 std::vector<SimpleSurface> simple_surfaces(const Object& object, const SurfaceFormat& format,
                                            std::vector<Triangulated>& triangulated);
 
-/// What writers of such formats note: cameras and lights without a surface, which are left out, and
-/// objects that triangles stand for.
+/// What writers of such formats note: cameras, lights without a surface and a sky, which are left
+/// out, and objects that triangles stand for.
 std::vector<std::string> notes_of(const Scene& scene, const SurfaceFormat& format,
                                   const std::vector<Triangulated>& triangulated);
 

@@ -110,6 +110,9 @@ Inspection inspect_scene(const RayCaster& rays) {
   warn_of_backs(scene, walks.sights, inspection.warnings);
   const Contacts contacts = find_contacts(rays, points);
   warn_of_lost_light(scene, walks.shines, contacts.buried, inspection.warnings);
+  if (scene.sky && scene.sky->shines() && walks.rays > 0 && !walks.open) {
+    inspection.warnings.push_back("no ray leaves the scene: the sky gives it no light");
+  }
   warn_of_contacts(scene, contacts, inspection.warnings);
   return inspection;
 }

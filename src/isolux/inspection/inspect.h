@@ -10,7 +10,8 @@ namespace isolux {
 
 /// What rays find out about a scene.
 struct Inspection {
-  /// That light takes from lights (eyes, where there are none) onwards; 0: there are neither.
+  /// That light takes from lights other than the sky (eyes, where there are none) onwards; 0: there
+  /// are neither.
   std::uint64_t rays = 0;
   std::uint64_t escaped = 0;  ///< of these, how many leave the scene: none where it is closed
   std::vector<std::string> warnings;  ///< each one line

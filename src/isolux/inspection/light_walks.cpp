@@ -52,7 +52,7 @@ class Walker {
       ++trail.rays;
       trail.escaped = !hit;
       const bool black = hit && dot(hit->normal, ray.direction) >= 0;
-      if (step == 0) trail.first_lost = !hit || black;
+      if (step == 0) trail.first_lost = black || (!hit && !rays_.scene().sky);
       if (!hit) break;
       const Object& object = rays_.scene().objects[hit->surface.object];
       trail.meetings.push_back({hit->surface.object, black || (object.emits() && hit->back)});
@@ -132,6 +132,7 @@ void walk_all(const Walker& walker, std::span<const Start> starts, std::uint64_t
     const Trail& trail = trails[i];
     found.rays += trail.rays;
     found.escaped += trail.escaped;
+    found.open |= trail.escaped;
     for (const auto& [object, back] : trail.meetings) {
       Sight& sight = found.sights[object];
       ++(back ? sight.back : sight.front);
@@ -154,9 +155,11 @@ LightWalks walk_with_light(const RayCaster& rays, std::span<const std::vector<Hi
   found.shines.resize(scene.objects.size() + scene.sources.size());
   const Walker walker(rays, points);
   walk_all(walker, cameras_of(scene), 2, found);
-  // Light is asked, not eyes, for how much of it leaves; a camera may stand outside a room.
-  if (scene.has_light()) found.rays = found.escaped = 0;
-  walk_all(walker, lights_of(scene), 3, found);
+  // Light is asked, not eyes, for how much of it leaves; a camera may stand outside a room. That of
+  // a sky comes from where it would leave to.
+  const std::vector<Start> lights = lights_of(scene);
+  if (!lights.empty()) found.rays = found.escaped = 0;
+  walk_all(walker, lights, 3, found);
   return found;
 }
 

@@ -43,7 +43,8 @@ Scene furnace_scene(const Scene& scene, double exitance) {
   }
   furnace.objects.push_back(closing_box(scene.bounds()));
   const auto emits = [](const Object& object) { return object.emits(); };
-  const bool lit = std::ranges::any_of(scene.objects, emits);
+  // Where there is a sky, light also reaches what lamps do not.
+  const bool lit = !scene.sky && std::ranges::any_of(scene.objects, emits);
   for (std::uint32_t i = 0; i < furnace.objects.size(); ++i) {
     Object& object = furnace.objects[i];
     const double reflectance = reflectance_of(i);

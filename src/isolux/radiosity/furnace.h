@@ -11,9 +11,9 @@ namespace isolux {
 // ρ_i B₀. What a solution differs from that is the solver's own: chance, leaks, light that is lost.
 
 /// The furnace that has the geometry of `scene`: each object gets a reflectance of its own, 0.2 to
-/// 0.8, and emits to match; sources are left out. Objects keep their indices. Open surfaces get
-/// their back as another object, whatever sides they had, and a box around all closes the scene.
-/// `exitance`: B₀, lm/m². Throws InputError where the scene has no objects.
+/// 0.8, and emits to match; sources and the sky are left out. Objects keep their indices. Open
+/// surfaces get their back as another object, whatever sides they had, and a box around all closes
+/// the scene. `exitance`: B₀, lm/m². Throws InputError where the scene has no objects.
 Scene furnace_scene(const Scene& scene, double exitance);
 
 /// How far the solution of a furnace is off. Vertices without triangles don't count.

@@ -135,6 +135,11 @@ void discretize_lights(const Scene& scene, double max_edge, Triangulation& mesh)
                     "that have one, so solve without it",
                     in_quotes(scene.sources.front().name)));
   }
+  if (scene.sky) {
+    throw InputError(
+        "the scene has a sky: the paper's method knows only lights that have a surface, so solve "
+        "without it");
+  }
   bool any = false;
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];

@@ -130,6 +130,10 @@ void add_some(std::vector<std::string>& warnings, const std::vector<std::string>
   }
 }
 
+SkyReport report_sky(const Sky& sky) {
+  return {luminance(horizontal_illuminance(sky)), luminance(sky.ground)};
+}
+
 SceneReport check_scene(const Scene& scene, std::size_t listed) {
   SceneReport report;
   report.name = scene.name;
@@ -152,6 +156,10 @@ SceneReport check_scene(const Scene& scene, std::size_t listed) {
   for (const Source& source : scene.sources) {
     report.lights += 1;
     report.flux += luminous_flux(source);
+  }
+  if (scene.sky) {
+    report.lights += scene.sky->shines() ? 1 : 0;
+    report.sky = report_sky(*scene.sky);
   }
   if (!scene.has_light()) report.warnings.push_back("nothing gives light: everything is black");
   if (report.cameras == 0) {

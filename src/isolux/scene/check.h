@@ -18,6 +18,13 @@ struct ObjectReport {
   Bounds bounds;               ///< m
 };
 
+/// What was understood of a sky.
+struct SkyReport {
+  double illuminance = 0;  ///< of an open horizontal surface by the sky alone, lx
+  double ground = 0;       ///< luminance below the horizon, cd/m²
+};
+SkyReport report_sky(const Sky& sky);
+
 /// What was understood of a scene, and what looks doubtful in it.
 struct SceneReport {
   std::string name;
@@ -27,8 +34,9 @@ struct SceneReport {
   std::map<std::string, std::size_t> primitives;  ///< how many of each kind; of CSG, its operands'
   std::size_t materials = 0;
   std::size_t cameras = 0;
-  std::size_t lights = 0;
-  double flux = 0;                    ///< of all lights, lm
+  std::size_t lights = 0;  ///< objects, sources and the sky
+  double flux = 0;         ///< of all lights whose flux is known, lm
+  std::optional<SkyReport> sky;
   Bounds bounds;                      ///< m
   std::vector<std::string> warnings;  ///< each one line
 };
