@@ -21,7 +21,8 @@ constexpr double kFirstTolerance = 0.08;
 constexpr double kLevelRatio = 8;
 
 // Subsets of the cover's vertices, one to gather first, the others where that is not enough.
-constexpr int kSubsets = 4;
+// The sky may show through small openings that few rays find.
+constexpr int kSubsets = 4, kSubsetsUnderSky = 1;
 
 // What a triangle sends is right in the mean for light that is quadratic along its sides; of the
 // error that linear interpolation would make, this part may be left.
@@ -67,7 +68,7 @@ void Gathering::first_solution() {
   cover(mesh_, rays_, cover_options);
   state_.level = goal() < kRoughest ? kFirstTolerance : kRoughest;
   light_newborn();
-  give_places(coarsen(mesh_, kSubsets));
+  give_places(coarsen(mesh_, rays_.scene().sky ? kSubsetsUnderSky : kSubsets));
   light_hidden();
   state_.statistics.emitted_flux = emitted_flux();
   gather_all(kTrialGrid);

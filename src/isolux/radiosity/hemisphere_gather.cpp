@@ -37,8 +37,10 @@ void tile_by_tile(const Row<Landing>& row, std::size_t first, std::size_t count,
 }
 
 /// The mean over all cells of the variance of one jittered point in the cell, from the second
-/// differences along both directions of the grid; at its rim, those of the cell next to it.
-double variance_in_cells(std::span<const double> values, int grid) {
+/// differences along both directions of the grid; at its rim, those of the cell next to it. Cells
+/// that are left out have none.
+double variance_in_cells(std::span<const double> values, int grid,
+                         std::span<const std::uint8_t> left_out) {
   const auto squared = [&](int i, int j, int step) {
     const auto at = static_cast<std::size_t>(j * grid + i);
     const auto s = static_cast<std::size_t>(step);
@@ -49,6 +51,7 @@ double variance_in_cells(std::span<const double> values, int grid) {
   double sum = 0;
   for (int j = 0; j < grid; ++j) {
     for (int i = 0; i < grid; ++i) {
+      if (!left_out.empty() && left_out[static_cast<std::size_t>(j * grid + i)]) continue;
       sum += squared(inner(i), j, 1) + squared(i, inner(j), grid);
     }
   }
@@ -66,26 +69,27 @@ double variance(std::span<const double> values) {
 }
 
 /// The variance of the mean over a grid.
-double variance_of_mean(std::span<const double> values, int grid) {
-  return (grid < 3 ? variance(values) : variance_in_cells(values, grid)) /
+double variance_of_mean(std::span<const double> values, int grid,
+                        std::span<const std::uint8_t> left_out) {
+  return (grid < 3 ? variance(values) : variance_in_cells(values, grid, left_out)) /
          static_cast<double>(values.size());
 }
 
-/// The variance of the mean over a row, of whose rays these are the values. What a divided cell
-/// has is left out of its neighbours' differences: there its left neighbour stands in for it.
+/// The variance of the mean over a row, of whose rays these are the values: that of the cells that
+/// are not divided, and that of the parts of the others.
 template <typename Ray>
-double variance_of_mean(const Row<Ray>& row, std::span<double> values) {
+double variance_of_mean(const Row<Ray>& row, std::span<const double> values) {
+  thread_local std::vector<std::uint8_t> divided;
+  divided.assign(row.cells(), 0);
   double within = 0;
   std::size_t first = row.cells();
-  for (const DividedCell& divided : row.divided) {
-    within += variance_of_mean(values.subspan(first, divided.count()), divided.parts);
-    first += divided.count();
-  }
-  for (const DividedCell& divided : row.divided) {
-    if (divided.cell > 0) values[divided.cell] = values[divided.cell - 1u];
+  for (const DividedCell& cell : row.divided) {
+    divided[cell.cell] = 1;
+    within += variance_of_mean(values.subspan(first, cell.count()), cell.parts, {});
+    first += cell.count();
   }
   const auto cells = static_cast<double>(row.cells());
-  return variance_of_mean(values.first(row.cells()), row.grid) + within / (cells * cells);
+  return variance_of_mean(values.first(row.cells()), row.grid, divided) + within / (cells * cells);
 }
 
 template <typename Ray, typename Radiosity>
@@ -333,6 +337,10 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   rays.send_to_cells();
   for (const DividedCell& cell : row.divided) rays.send_to_parts(cell);
   land(receiver, rays.rays(), 0, row);
+  // The one ray of a divided cell does not count: there it must not look like noise of others.
+  for (const DividedCell& cell : row.divided) {
+    if (cell.cell > 0) row.rays[cell.cell] = row.rays[cell.cell - 1u];
+  }
   if (!sky_) return;
   const std::size_t landed = row.rays.size(), known = row.divided.size();
   divide_rims(row);
