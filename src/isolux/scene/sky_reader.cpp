@@ -11,8 +11,8 @@ namespace isolux {
 namespace {
 
 constexpr double kLargestLuminance = 1e9;    ///< cd/m², nearly that of the sun
-constexpr double kLargestCoefficient = 100;  ///< several times those of any sky that was measured
-constexpr double kBelowHorizon = -1e-9;      ///< cosine of the angle from the zenith: not rounding
+constexpr double kLargestCoefficient = 100;  ///< far beyond those of the standard's skies
+constexpr double kBelowHorizon = -1e-9;      ///< cosine from the zenith: less is no rounding
 
 int read_type(const Value& value) {
   constexpr std::array kNamed{5, 16, 12};

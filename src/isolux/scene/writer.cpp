@@ -88,9 +88,12 @@ void append_sky(std::string& text, const Sky& sky) {
   int type = 1;
   while (type <= kSkyTypes && standard_sky(type) != d) ++type;
   text += "\nsky:\n";
-  text += type <= kSkyTypes
-              ? fmt::format("  type: {}\n", type)
-              : "  distribution: " + to_yaml_list(std::array{d.a, d.b, d.c, d.d, d.e}) + '\n';
+  if (type <= kSkyTypes) {
+    fmt::format_to(std::back_inserter(text), "  type: {}\n", type);
+  } else {
+    fmt::format_to(std::back_inserter(text), "  distribution: {}\n",
+                   to_yaml_list(std::array{d.a, d.b, d.c, d.d, d.e}));
+  }
   if (d.depends_on_sun() || sky.sun != sky.up) text += "  sun: " + to_yaml(sky.sun) + '\n';
   text += "  zenith: " + to_yaml(sky.zenith) + '\n';
   if (sky.ground != Rgb{}) text += "  ground: " + to_yaml(sky.ground) + '\n';
