@@ -44,7 +44,7 @@ void Gathering::run() {
   if (mesh_.vertices().empty()) first_solution();
   for (; keep_going(); ++state_.statistics.iterations) {
     refine_direct();
-    gather_all(kTrialGrid);
+    gather_all(trial_grid());
     transfer();
     if (on_the_way()) {
       state_.indirect_mean_square = indirect_mean_square();
@@ -71,7 +71,7 @@ void Gathering::first_solution() {
   give_places(coarsen(mesh_, rays_.scene().sky ? kSubsetsUnderSky : kSubsets));
   light_hidden();
   state_.statistics.emitted_flux = emitted_flux();
-  gather_all(kTrialGrid);
+  gather_all(trial_grid());
   transfer();
   estimate();
 }

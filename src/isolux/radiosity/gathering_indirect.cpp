@@ -210,7 +210,7 @@ void Gathering::gather_at_doubtful(std::span<const VertexId> doubtful) {
     const VertexLight& light = state_.light[v];
     by_rule.push_back({v, light.indirect, square(light.indirect_deviation), rule, area_around(v)});
   }
-  trace_as_wanted(doubtful, wanted_grids(), kTrialGrid);
+  trace_as_wanted(doubtful, wanted_grids(), trial_grid());
   std::vector<Finding> findings;
   for (const auto& [v, before, variance, rule, area] : by_rule) {
     const VertexLight& light = state_.light[v];
@@ -309,7 +309,7 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   for (std::size_t i = 0; i < suspect.size(); ++i) {
     if (!middles[i].point) continue;
     const auto& [a, b, area] = suspect[i];
-    const int grid = std::min(std::max(wanted[a], wanted[b]), kTrialGrid);
+    const int grid = std::min(std::max(wanted[a], wanted[b]), trial_grid());
     of.push_back(i);
     requests.push_back(
         {{middles[i].point->position, middles[i].point->normal}, grid, suspect[i].key()});
@@ -327,7 +327,7 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
       state_.indirect_findings[edge.key()] = {};
       continue;
     }
-    gathered[i] = gather(rows[i].links);
+    gathered[i] = gather(rows[i]);
     const VertexLight &a = state_.light[edge.a], &b = state_.light[edge.b];
     const double e = luminance((a.indirect + b.indirect) / 2 - gathered[i].irradiance);
     const double noise = square(gathered[i].error) +

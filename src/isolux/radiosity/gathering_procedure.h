@@ -41,11 +41,13 @@ class Gathering {
   static constexpr std::size_t kChunk = 8192;  // work between two looks at the clock
   static constexpr std::size_t kGrain = 256;
 
-  // Rays over a hemisphere, cells a side, until it is known who gathers.
-  static constexpr int kTrialGrid = 12;
+  // Rays over a hemisphere, cells a side: the least, and the most until it is known who gathers.
+  // The sky may show through openings that fewer would miss.
+  int coarsest_grid() const { return rays_.scene().sky ? 24 : 8; }
+  int trial_grid() const { return rays_.scene().sky ? 32 : 12; }
 
-  // Of finer grids not all rays are kept, but those over one of so many cells a side.
-  static constexpr int kKeptGrid = 8;
+  // Of grids finer than the first not all rays are kept, but those over the second.
+  static constexpr int kWholeGrid = 12, kKeptGrid = 8;
 
   // Of a linear function's error squared over a triangle, as a mean: 8/45 (Σ e² + Σ e e') for the
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².
@@ -159,6 +161,7 @@ class Gathering {
   void look_up_anew();
   std::vector<VertexId> outdated_vertices() const;
   Gathered gather(const Row<Link>& row) const;
+  Gathered gather(const TracedRow& row) const;
   Rgb gathered_by(const VertexLight& light) const;
   void evaluate(std::span<const VertexId> vertices);
   void interpolate_indirect(VertexId v);

@@ -15,8 +15,7 @@ constexpr double kHat = 0.5;
 // Stands for the number of a site that is not listed yet.
 constexpr std::uint32_t kFresh = std::numeric_limits<std::uint32_t>::max();
 
-constexpr int kCoarsestGrid = 8;  // rays over a hemisphere: cells a side
-constexpr double kFall = 1.5;     // σ² falls as the number of rays to the power of −kFall
+constexpr double kFall = 1.5;  // σ² falls as the number of rays to the power of −kFall
 // Of E_i², as doubts() has it: 2 % at 64 rays.
 constexpr double kLeastDoubt = 0.02 * 0.02 * 512;
 
@@ -86,7 +85,7 @@ std::vector<double> Gathering::areas_of_influence(std::vector<double> around) {
 std::vector<int> Gathering::wanted_grids() {
   constexpr double kMostNoise = 2;
   constexpr double kDim = 0.25;  // of the mean irradiance
-  std::vector<int> grids(state_.light.size(), kCoarsestGrid);
+  std::vector<int> grids(state_.light.size(), coarsest_grid());
   if (!(mean_irradiance() > 0)) return grids;
   const std::vector<double> around = areas_around();
   const std::vector<double> areas = areas_of_influence(around), doubt = doubts();
@@ -106,7 +105,7 @@ std::vector<int> Gathering::wanted_grids() {
       const double least = std::pow(doubt[v] / most, 1 / kFall);
       const double side = std::ceil(std::sqrt(std::max(fineness * worth(v), least)));
       grids[v] = static_cast<int>(
-          std::clamp(side, double(kCoarsestGrid), double(HemisphereGather::kFinestGrid)));
+          std::clamp(side, double(coarsest_grid()), double(HemisphereGather::kFinestGrid)));
     }
   });
   return grids;
@@ -198,17 +197,17 @@ void Gathering::trace_rows(std::span<const RowRequest> requests,
 Gathering::TracedRow Gathering::traced(const RowRequest& request) const {
   thread_local Row<Landing> landings;
   TracedRow row;
-  const auto trace = [&](int grid) {
-    hemisphere_->trace(request.receiver, grid, options_.seed, request.id, landings);
+  const auto trace = [&](int grid, HemisphereGather::Rims rims) {
+    hemisphere_->trace(request.receiver, grid, options_.seed, request.id, landings, rims);
     row.rays += landings.rays.size();
   };
-  trace(request.grid);
+  trace(request.grid, HemisphereGather::Rims::divided);
   row.grid = request.grid;
   row.escaped = mean_over(
       landings, [&](std::size_t i) { return double(hemisphere_->lost(landings.rays[i].site)); });
-  if (request.grid > kTrialGrid) {
+  if (request.grid > kWholeGrid) {
     row.beyond = hemisphere_->gather_with_error(landings, state_.sent);
-    trace(kKeptGrid);
+    trace(kKeptGrid, HemisphereGather::Rims::as_they_are);
     row.beyond.irradiance -= hemisphere_->gather(landings, state_.sent);
   }
   row.links = {landings.grid, landings.divided, {}};

@@ -20,6 +20,13 @@ Gathered Gathering::gather(const Row<Link>& row) const {
   return gathered;
 }
 
+/// The same by a row of which some rays are kept.
+Gathered Gathering::gather(const TracedRow& row) const {
+  if (row.grid == row.links.grid) return gather(row.links);
+  const Rgb irradiance = isolux::gather(row.links, site_light_) + row.beyond.irradiance;
+  return {irradiance * state_.balance, row.beyond.error};
+}
+
 /// E_i of a vertex that gathers, under the light as of light_sites().
 Rgb Gathering::gathered_by(const VertexLight& light) const {
   return (isolux::gather(light.row, site_light_) + light.beyond) * state_.balance;

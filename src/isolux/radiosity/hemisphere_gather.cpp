@@ -328,7 +328,7 @@ void HemisphereGather::land(const Receiver& receiver, std::span<const Ray> rays,
 }
 
 void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t seed,
-                             std::uint64_t id, Row<Landing>& row) const {
+                             std::uint64_t id, Row<Landing>& row, Rims rims) const {
   Random random(seed, id);
   HemisphereRays rays(receiver, rays_.epsilon(), grid, random);
   row.grid = grid;
@@ -341,7 +341,7 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   for (const DividedCell& cell : row.divided) {
     if (cell.cell > 0) row.rays[cell.cell] = row.rays[cell.cell - 1u];
   }
-  if (!sky_) return;
+  if (!sky_ || rims == Rims::as_they_are) return;
   const std::size_t landed = row.rays.size(), known = row.divided.size();
   divide_rims(row);
   if (row.divided.size() == known) return;

@@ -50,9 +50,12 @@ class HemisphereGather {
   HemisphereGather(const RayCaster& rays, const Triangulation& mesh,
                    std::span<const std::uint8_t> separate, std::span<const Rgb> irradiance = {});
 
+  /// Whether cells at the rims of what is seen of the sky are divided.
+  enum class Rims { divided, as_they_are };
+
   /// The row of one receiver: where its rays land. The same seed and id give the same directions.
   void trace(const Receiver& receiver, int grid, std::uint64_t seed, std::uint64_t id,
-             Row<Landing>& row) const;
+             Row<Landing>& row, Rims rims = Rims::divided) const;
 
   /// The part of gather() that is reflected, without what the surfaces emit by themselves.
   Rgb reflected(const Row<Landing>& row, std::span<const Rgb> irradiance) const;
