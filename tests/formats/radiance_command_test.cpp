@@ -296,7 +296,7 @@ TEST(RadianceCommand, FaultsOfAMeshAreInItsFile) {
 
 TEST(RadianceCommand, UnknownOnesAreLeftOut) {
   const SceneFile file = read_radiance_text(kGray +
-                                            "!gensky 6 21 12 | xform -rz 30\n"
+                                            "!gendaylit 6 21 12 -W 800 100 | xform -rz 30\n"
                                             "!rm -r /\n"
                                             "!genbox m a 1 1 1 > b.rad\n"
                                             "!gensurf m a 'noise3(s)' s t 2 2\n"
@@ -304,13 +304,15 @@ TEST(RadianceCommand, UnknownOnesAreLeftOut) {
                                             "!genbox m b 1 1 1 | getinfo\n"
                                             "!genbox m c 1 1 1\n");
   EXPECT_EQ(file.scene.objects.size(), 6u);
-  EXPECT_THAT(file.notes,
-              ElementsAre("command 'gensky' left out: there is no light from sun and sky",
-                          "command 'rm' left out: that program is not known",
-                          "command 'genbox' left out: it is written for a shell",
-                          "command 'gensurf' left out: the function 'noise3' is not known",
-                          "command 'gensurf' left out: the option '-e' is not known",
-                          "command 'getinfo' left out: that program is not known"));
+  EXPECT_THAT(
+      file.notes,
+      ElementsAre("command 'gendaylit' left out: that program is not known, but what it writes is: "
+                  "put that in its place",
+                  "command 'rm' left out: that program is not known",
+                  "command 'genbox' left out: it is written for a shell",
+                  "command 'gensurf' left out: the function 'noise3' is not known",
+                  "command 'gensurf' left out: the option '-e' is not known",
+                  "command 'getinfo' left out: that program is not known"));
 }
 
 }  // namespace

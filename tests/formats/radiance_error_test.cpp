@@ -167,7 +167,11 @@ TEST(RadianceError, MutilatedTextsEndInASceneOrAnInputError) {
       "!genprism m p 3 0 0 1 0 0 1 -l 0 1 2 -r .1 | xform -m a -mx -s 2\n"
       "!genrev m r 'hermite(0,1,t,2,t)' \"1+.5*sin(PI*t)\" 3 -s\n"
       "!genworm m w t '-t^2' 0 .1 2\n!gensurf m f s t 's*t/(1+t)' 2 2\n"
-      "!genblinds m v 1 2 3 4 30 -r 2\n";
+      "!genblinds m v 1 2 3 4 30 -r 2\n"
+      "!gensky 6 21 13:30EDT +i -b 10 -g .2 -a 42 | xform -rz 20\n"
+      "skyfunc glow y 0 0 4 1 1 1 0\ny source s 0 0 4 0 0 1 360\n"
+      "void brightfunc k 2 skybright perezlum.cal 0 10 2 3 -1 -.3 9 -3 .4 0 -.6 .8\n"
+      "k glow z 0 0 4 1 1 1 0\nz source s 0 0 4 0 0 -1 180\n";
   for (std::size_t size = 0; size < whole.size(); ++size) radiance_refusal(whole.substr(0, size));
   const std::string letters = "-+.0139eamtxyz'\"|!# \n\r\t\\()*^/\x01\xff";
   Random random(1);

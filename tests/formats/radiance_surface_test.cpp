@@ -99,7 +99,7 @@ TEST(RadianceSurface, SmallSourcesAreDirectionalLight) {
 TEST(RadianceSurface, WideSourcesMeshesAndInstancesAreNoted) {
   const SceneFile file =
       read_radiance_text(kGray +
-                         "void glow sky\n0\n0\n4 1 1 1 0\nsky source sky\n0\n0\n4 0 0 1 180\n"
+                         "void glow sky\n0\n0\n4 1 1 1 0\nsky source sky\n0\n0\n4 0 0 1 90\n"
                          "m mesh ship\n1 ship.rtm\n0\n0\nm instance tree\n1 tree.oct\n0\n0\n"
                          "m sphere s\n0\n0\n4 0 0 0 1\n");
   EXPECT_EQ(file.scene.objects.size(), 1u);

@@ -3,6 +3,7 @@
 #include "isolux/formats/limits.h"
 #include "isolux/formats/radiance/expression.h"
 #include "isolux/formats/radiance/generators.h"
+#include "isolux/formats/radiance/gensky.h"
 #include "isolux/formats/radiance/reader.h"
 #include "isolux/formats/transform.h"
 #include "isolux/scene/spelling.h"
@@ -27,8 +28,11 @@ const Generator* generator_named(std::string_view program) {
   return nullptr;
 }
 
-constexpr std::string_view kSkies[] = {"gensky", "gendaylit", "gendaymtx", "genutahsky",
-                                       "gensdaymtx"};
+/// Whether the program is carried out here.
+bool is_known(std::string_view program) {
+  return program == "xform" || program == "cat" || program == "gensky" ||
+         generator_named(program) != nullptr;
+}
 
 }  // namespace
 
@@ -41,8 +45,9 @@ void Reader::run(const Command& command, const Context& context) {
   std::optional<Context> inner;
   for (std::size_t i = command.stages.size(); i-- > 1;) {
     const Statement& stage = command.stages[i];
-    if (generator_named(stage.word(0))) return skip(i, "it takes what another program writes");
-    if (stage.word(0) != "xform") return skip(i, "that program is not known");
+    const bool reads = stage.word(0) == "xform";
+    if (!reads && is_known(stage.word(0))) return skip(i, "it takes what another program writes");
+    if (!reads) return skip(i, "that program is not known");
     std::size_t at = 1;
     try {
       inner = transformed(stage, at, inner ? *inner : context);
@@ -52,13 +57,10 @@ void Reader::run(const Command& command, const Context& context) {
     if (at < stage.size()) stage.fail(at, "here xform reads the output of the program before it");
   }
   const Statement& first = command.stages.front();
-  const std::string_view program = first.word(0);
-  for (const std::string_view sky : kSkies) {
-    if (program == sky) return skip(0, "there is no light from sun and sky");
+  if (first.word(0) == "gendaylit") {
+    return skip(0, "that program is not known, but what it writes is: put that in its place");
   }
-  if (program != "xform" && program != "cat" && !generator_named(program)) {
-    return skip(0, "that program is not known");
-  }
+  if (!is_known(first.word(0))) return skip(0, "that program is not known");
   try {
     run(first, inner ? *inner : context);
   } catch (const Unsupported& reason) {
@@ -68,6 +70,15 @@ void Reader::run(const Command& command, const Context& context) {
 
 void Reader::run(const Statement& program, const Context& context) {
   const Generator* const generator = generator_named(program.word(0));
+  if (program.word(0) == "gensky") {
+    const SourceText sky{"gensky", generate_sky(program, notes_)};
+    try {
+      read(Scanner(sky), context);
+    } catch (const InputError& error) {
+      program.fail(0, error.what());
+    }
+    return;
+  }
   if (!generator) {
     std::size_t at = 1;
     std::optional<Context> inner;

@@ -111,6 +111,13 @@ Rgb emitted(const Primitive& p, double part) {
   p.numbers.fail(1, fmt::format("more than {:g} lm/m² would leave this light", kMostExitance));
 }
 
+/// That of a modifier with others behind it: two skies are none.
+LightPattern combined(const LightPattern& own, const LightPattern& behind) {
+  if (!own.sky && !own.other) return behind;
+  if (!behind.sky && !behind.other) return own;
+  return {nullptr, true};
+}
+
 }  // namespace
 
 bool is_modifier(std::string_view type) {
@@ -139,6 +146,7 @@ Materials::Materials(Notes& notes) : notes_(notes) {
   modifiers_[kUndefined].finish = 1;
   modifiers_[kUndefined].next = kUndefined;
   modifiers_[kUndefined].noted = true;  // by note_undefined()
+  modifiers_[kUndefined].pattern.other = true;
 }
 
 std::size_t Materials::find(std::string_view name) const {
@@ -153,28 +161,18 @@ std::size_t Materials::require(std::string_view name) {
   return number;
 }
 
-void Materials::define(const Primitive& p) {
+void Materials::define(const Primitive& p, const Affine& map) {
   if (modifiers_.size() > kMostModifiers) {
     p.head.fail(0, fmt::format("the scene has more than {} modifiers", kMostModifiers));
   }
   Modifier modifier;
   const std::string_view type = p.type();
   if (type == "alias") {
-    modifier = modifiers_[require(p.strings.word(1))];
-    const bool looked_through =
-        !listed(kPatterns, modifier.type).empty() || !listed(kTextures, modifier.type).empty();
-    if (looked_through && p.modifier() != "inherit") {
-      modifier.next = require(p.modifier());
-      modifier.finish = modifiers_[modifier.next].finish;
-    }
-    if (material_type(modifier.type)) {
-      finishes_.push_back(finishes_[modifier.finish]);
-      finishes_.back().name = clean_name(p.name());
-      modifier.finish = finishes_.size() - 1;
-    }
+    modifier = alias(p);
   } else if (const MaterialType* const material = material_type(type)) {
     modifier.type = material->name;
     modifier.next = modifiers_.size();
+    modifier.pattern = modifiers_[find(p.modifier())].pattern;
     define_material(p, modifier);
   } else if (const std::string_view mixture = listed(kMixtures, type); !mixture.empty()) {
     if (p.strings.size() < 3)
@@ -188,6 +186,7 @@ void Materials::define(const Primitive& p) {
       if (modifiers_[part].finish != modifiers_[kVoid].finish) break;
     }
     modifier.finish = modifiers_[modifier.next].finish;
+    modifier.pattern.other = modifier.own_pattern.other = true;
   } else {
     const std::string_view pattern = listed(kPatterns, type);
     modifier.type = pattern.empty() ? listed(kTextures, type) : pattern;
@@ -195,9 +194,35 @@ void Materials::define(const Primitive& p) {
                                       : "surfaces have the plain color of their material";
     modifier.next = require(p.modifier());
     modifier.finish = modifiers_[modifier.next].finish;
+    if (const auto sky = read_sky_pattern(p, map)) {
+      modifier.own_pattern.sky = std::make_shared<SkyPattern>(*sky);
+    } else {
+      modifier.own_pattern.other = !pattern.empty();
+    }
+    modifier.pattern = combined(modifier.own_pattern, modifiers_[modifier.next].pattern);
   }
-  modifiers_.push_back(modifier);
+  modifiers_.push_back(std::move(modifier));
   numbers_[std::string(p.name())] = modifiers_.size() - 1;
+}
+
+/// What an alias stands for, with its own modifier behind it unless it inherits that too.
+Materials::Modifier Materials::alias(const Primitive& p) {
+  Modifier modifier = modifiers_[require(p.strings.word(1))];
+  if (p.modifier() != "inherit") {
+    const bool looked_through =
+        !listed(kPatterns, modifier.type).empty() || !listed(kTextures, modifier.type).empty();
+    if (looked_through) {
+      modifier.next = require(p.modifier());
+      modifier.finish = modifiers_[modifier.next].finish;
+    }
+    modifier.pattern = combined(modifier.own_pattern, modifiers_[find(p.modifier())].pattern);
+  }
+  if (material_type(modifier.type)) {
+    finishes_.push_back(finishes_[modifier.finish]);
+    finishes_.back().name = clean_name(p.name());
+    modifier.finish = finishes_.size() - 1;
+  }
+  return modifier;
 }
 
 void Materials::define_material(const Primitive& p, Modifier& modifier) {
@@ -258,15 +283,24 @@ void Materials::define_material(const Primitive& p, Modifier& modifier) {
   finishes_.push_back(std::move(finish));
 }
 
+void Materials::note(Modifier& modifier) {
+  modifier.noted = true;
+  if (!modifier.change.empty()) notes_.changed(modifier.type, modifier.change);
+  if (modifier.clamped) notes_.add("reflectance of 1 or more: reduced to 0.999");
+}
+
 const Finish& Materials::finish_of(std::string_view name) {
   const std::size_t first = require(name);
-  for (std::size_t i = first; !modifiers_[i].noted; i = modifiers_[i].next) {
-    Modifier& modifier = modifiers_[i];
-    modifier.noted = true;
-    if (!modifier.change.empty()) notes_.changed(modifier.type, modifier.change);
-    if (modifier.clamped) notes_.add("reflectance of 1 or more: reduced to 0.999");
-  }
+  for (std::size_t i = first; !modifiers_[i].noted; i = modifiers_[i].next) note(modifiers_[i]);
   return finishes_[modifiers_[first].finish];
+}
+
+SourceLight Materials::source_light_of(std::string_view name) {
+  const std::size_t first = require(name);
+  std::size_t last = first;  // of the chain: its material
+  while (modifiers_[last].next != last) last = modifiers_[last].next;
+  if (last != kVoid && !modifiers_[last].noted) note(modifiers_[last]);
+  return {finishes_[modifiers_[first].finish].exitance / pi, modifiers_[first].pattern};
 }
 
 void Materials::note_undefined() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "isolux/core/color.h"
 #include "isolux/formats/notes.h"
 #include "isolux/formats/radiance/scanner.h"
+#include "isolux/formats/radiance/skies.h"
 
 namespace isolux::radiance {
 
@@ -30,10 +32,12 @@ class Materials {
  public:
   explicit Materials(Notes& notes);
 
-  /// Takes a modifier, which from here on has its name.
-  void define(const Primitive& primitive);
+  /// Takes a modifier, which from here on has its name. `map` is where what describes it stands.
+  void define(const Primitive& primitive, const Affine& map);
   /// What the modifier of that name makes of a surface; notes what is lost by that.
   const Finish& finish_of(std::string_view modifier);
+  /// What the modifier of that name makes of a source that is no sun.
+  SourceLight source_light_of(std::string_view modifier);
   /// Notes the names that no modifier has, though others or surfaces refer to them.
   void note_undefined() const;
 
@@ -46,12 +50,15 @@ class Materials {
     std::string_view change;  ///< what becomes of it, empty where it is kept
     bool clamped = false;     ///< reflects more than there is
     bool noted = false;
+    LightPattern own_pattern, pattern;  ///< of its light: its own, with those behind it
   };
 
   std::size_t find(std::string_view name) const;
   /// The same, remembering names that are not there.
   std::size_t require(std::string_view name);
   void define_material(const Primitive& primitive, Modifier& modifier);
+  Modifier alias(const Primitive& primitive);
+  void note(Modifier& modifier);
 
   Notes& notes_;
   std::vector<Finish> finishes_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "isolux/core/error.h"
@@ -63,15 +62,16 @@ void Reader::read_file(const Statement& s, std::size_t i, const Context& context
 }
 
 void Reader::add(const Primitive& p, const Context& context) {
-  if (is_modifier(p.type())) return materials_.define(p);
+  if (is_modifier(p.type())) return materials_.define(p, context.maps.front());
   if (p.type() == "instance") return add_instance(p, context);
   if (p.type() == "mesh") return add_mesh(p, context);
   const auto& types = surface_types();
   const bool is_surface = std::find(types.begin(), types.end(), p.type()) != types.end();
   if (!is_surface && p.type() != "source") unknown_type(p);
-  const Finish& finish =
-      materials_.finish_of(context.modifier ? std::string_view(*context.modifier) : p.modifier());
-  if (!is_surface) return add_source(p, finish, context);
+  const std::string_view modifier =
+      context.modifier ? std::string_view(*context.modifier) : p.modifier();
+  if (!is_surface) return add_source(p, modifier, context);
+  const Finish& finish = materials_.finish_of(modifier);
   const Surface surface = read_surface(p);
   try {
     add_surface(surface, p.name(), finish, context);
@@ -139,33 +139,38 @@ std::uint32_t Reader::material_number(const Finish& finish) {
   return number->second;
 }
 
-void Reader::add_source(const Primitive& p, const Finish& finish, const Context& context) {
+void Reader::add_source(const Primitive& p, std::string_view modifier, const Context& context) {
   p.expect_numbers(4, 4, "x y z angle");
   const Vec3 toward{p.number(0), p.number(1), p.number(2)};
   const double angle = p.number(3);
   if (!(length(normalized(toward)) > 0)) p.numbers.fail(1, "the direction must not be zero");
   if (angle < 0 || angle > 360) p.numbers.fail(4, "the angle must lie between 0 and 360 degrees");
-  if (!(max_channel(finish.exitance) > 0) || angle == 0) {
-    return notes_.left_out("source", "where it gives no light");
-  }
-  if (angle > kWidestSun) {
-    return notes_.left_out("source", "wider than 10 degrees: there is no light from a sky");
-  }
-  const double solid_angle = 2 * pi * (1 - std::cos(0.5 * angle * pi / 180));
-  Source source;
-  source.kind = Source::Kind::directional;
-  source.intensity = finish.exitance * (solid_angle / pi);
-  if (!(max_channel(source.intensity) <= kMostIlluminance)) {
-    p.numbers.fail(0, fmt::format("more than {:g} lx would come from here", kMostIlluminance));
-  }
+  constexpr std::string_view kDark = "where it gives no light";
   try {
     require_room({}, context.maps.size());
   } catch (const InputError& error) {
     p.head.fail(0, error.what());
   }
+  const auto placed = [&](const Affine& map) { return normalized(map.vector(normalized(toward))); };
+  if (angle > kWidestSun) {
+    const SourceLight light = materials_.source_light_of(modifier);
+    // A black sky still says where up is.
+    if (!(max_channel(light.luminance) > 0) && !light.pattern.sky) {
+      return notes_.left_out("source", kDark);
+    }
+    for (const Affine& map : context.maps) skies_.add(placed(map), angle, light, p.head.location());
+    return;
+  }
+  Source source;
+  source.kind = Source::Kind::directional;
+  source.intensity = materials_.finish_of(modifier).exitance * (solid_angle(angle) / pi);
+  if (!(max_channel(source.intensity) > 0)) return notes_.left_out("source", kDark);
+  if (!(max_channel(source.intensity) <= kMostIlluminance)) {
+    p.numbers.fail(0, fmt::format("more than {:g} lx would come from here", kMostIlluminance));
+  }
   for (const Affine& map : context.maps) {
     source.name = object_names_.next(context.prefixed(p.name()));
-    source.direction = -normalized(map.vector(normalized(toward)));
+    source.direction = -placed(map);
     result_.scene.sources.push_back(source);
   }
 }
@@ -257,6 +262,7 @@ SceneFile Reader::finish() {
                                      "all are left out",
                                      left_out_));
   }
+  scene.sky = skies_.sky();
   if (scene.cameras.empty() || !has_own_view_) {
     scene.cameras.insert(scene.cameras.begin(), default_camera(scene));
   }

@@ -12,6 +12,7 @@
 #include "isolux/formats/radiance/generators.h"
 #include "isolux/formats/radiance/materials.h"
 #include "isolux/formats/radiance/scanner.h"
+#include "isolux/formats/radiance/skies.h"
 #include "isolux/formats/radiance/view.h"
 #include "isolux/formats/scene_file.h"
 #include "isolux/formats/soup.h"
@@ -48,7 +49,7 @@ class Reader {
   void add(const Primitive& primitive, const Context& context);
   void add_surface(const Surface& surface, std::string_view word, const Finish& finish,
                    const Context& context);
-  void add_source(const Primitive& primitive, const Finish& finish, const Context& context);
+  void add_source(const Primitive& primitive, std::string_view modifier, const Context& context);
   void add_instance(const Primitive& primitive, const Context& context);
   void add_mesh(const Primitive& primitive, const Context& context);
   /// What is left of the triangles once they are mended.
@@ -81,6 +82,7 @@ class Reader {
   Notes notes_;
   Surroundings around_{includes_, notes_};
   Materials materials_{notes_};
+  Skies skies_{notes_};
   SceneFile result_;
   NumberedNames object_names_, material_names_;
   std::unordered_map<std::string, std::uint32_t> material_numbers_;  ///< by name and reflectance

@@ -1,0 +1,127 @@
+#include "isolux/formats/radiance/skies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "isolux/formats/limits.h"
+
+namespace isolux::radiance {
+namespace {
+
+constexpr double kSlack = 1e-6;         ///< degrees, of the widths of hemispheres
+constexpr double kParallel = 1 - 1e-6;  ///< cosine of what counts as the same direction
+constexpr std::size_t kMostSources = 1000;
+
+/// The luminance where the sky is brightest, in parts of that in the zenith: at the sun, or at the
+/// horizon, or no less than that.
+double brightest(const Sky& sky) {
+  const SkyDistribution& distribution = sky.distribution;
+  const double cos_sun = dot(sky.sun, sky.up);
+  const double gradation = std::max(distribution.gradation(0), distribution.gradation(1));
+  const double indicatrix = std::max(distribution.indicatrix(1), distribution.indicatrix(-1));
+  return std::max(
+      1.0, gradation * indicatrix / (distribution.gradation(1) * distribution.indicatrix(cos_sun)));
+}
+
+void require_dim(const Rgb& luminance, const SourceLocation& place) {
+  constexpr double kMost = kMostExitance / std::numbers::pi;
+  if (max_channel(luminance) <= kMost) return;
+  throw InputError(place, fmt::format("this sky would be brighter than {:.3g} cd/m²", kMost));
+}
+
+}  // namespace
+
+void Skies::add(const Vec3& toward, double angle, const SourceLight& light,
+                const SourceLocation& place) {
+  const bool whole = angle > 360 - kSlack;
+  if (!whole && std::abs(angle - 180) > kSlack) {
+    notes_.left_out("source",
+                    "wider than 10 degrees, but neither half (180) nor all (360) of the sky");
+    return;
+  }
+  if (light.pattern.other) {
+    notes_.left_out("source",
+                    "its pattern is none of the skies skybr (skybright.cal) and "
+                    "skybright (perezlum.cal)");
+    return;
+  }
+  if (sources_.size() == kMostSources) {
+    throw InputError(place,
+                     fmt::format("more than {} sources are wider than 10 degrees", kMostSources));
+  }
+  sources_.push_back({toward, whole, light, place});
+}
+
+Vec3 Skies::up() const {
+  for (const Source& source : sources_) {
+    if (!source.light.pattern.sky) continue;
+    const Vec3& up = source.light.pattern.sky->up;
+    if (source.whole || std::abs(dot(source.toward, up)) > kParallel) return up;
+  }
+  const Source& first = sources_.front();
+  if (first.whole) return {0, 0, 1};
+  // The ground is the hemisphere that lies down an axis.
+  const Vec3& d = first.toward;
+  const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
+  const double most = z >= std::max(x, y) ? d.z : y >= x ? d.y : d.x;
+  return most < 0 ? -d : d;
+}
+
+std::optional<Sky> Skies::sky() const {
+  if (sources_.empty()) return std::nullopt;
+  Sky sky;
+  sky.up = sky.sun = up();
+  bool has_zenith = false, has_ground = false;
+  for (const Source& source : sources_) {
+    const SkyPattern* const pattern = source.light.pattern.sky.get();
+    const double along = dot(source.toward, sky.up);
+    if ((pattern && dot(pattern->up, sky.up) < kParallel) ||
+        (!source.whole && std::abs(along) < kParallel)) {
+      notes_.left_out("source", "its horizon is not that of the sky");
+      continue;
+    }
+    const bool above = source.whole || along > 0, below = source.whole || along < 0;
+    if ((above && has_zenith) || (below && has_ground)) {
+      notes_.left_out("source", "a second sky over the first");
+    }
+    if (!(above && !has_zenith) && !(below && !has_ground)) continue;
+    PatternedSky own{{}, 0};
+    own.sky.zenith = own.sky.ground = gray(1);
+    own.sky.up = own.sky.sun = sky.up;
+    if (pattern) {
+      const auto patterned = sky_of(*pattern);
+      if (!patterned) {
+        notes_.left_out("source", "its sky is darker than 0 in places, or not finite");
+        continue;
+      }
+      own = *patterned;
+      if (pattern->colored) {
+        notes_.add("'perezlum_c.cal': its color goes with the luminance; the sky is plain");
+      }
+    }
+    if (above && !has_zenith) {
+      has_zenith = true;
+      sky.distribution = own.sky.distribution;
+      sky.sun = own.sky.sun;
+      sky.zenith = source.light.luminance * own.sky.zenith.r;
+      require_dim(sky.zenith * brightest(sky), source.place);
+      if (own.nearest_type > 0) {
+        notes_.add(
+            fmt::format("the intermediate sky: the CIE sky of type {} is nearest, and gives "
+                        "the same illuminance",
+                        own.nearest_type));
+      }
+    }
+    if (below && !has_ground) {
+      has_ground = true;
+      sky.ground = source.light.luminance * own.sky.ground.r;
+      require_dim(sky.ground, source.place);
+    }
+  }
+  return sky.shines() ? std::optional(sky) : std::nullopt;
+}
+
+}  // namespace isolux::radiance
