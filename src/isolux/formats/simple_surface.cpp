@@ -256,19 +256,21 @@ std::vector<std::string> notes_of(const Scene& scene, const SurfaceFormat& forma
     notes.push_back(
         fmt::format("cameras are left out ({}): {} has none", scene.cameras.size(), format.name));
   }
-  if (!scene.sources.empty()) {
-    notes.push_back(
-        fmt::format("lights without a surface are left out ({})", scene.sources.size()));
+  const auto lost = std::count_if(
+      scene.sources.begin(), scene.sources.end(),
+      [&](const Source& source) { return !format.infinity || source.kind == Source::Kind::point; });
+  if (lost > 0) notes.push_back(fmt::format("lights without a surface are left out ({})", lost));
+  if (scene.sky && scene.sky->shines() && !format.infinity) {
+    notes.push_back(fmt::format("the sky is left out: {} has none", format.name));
   }
-  if (scene.sky) notes.push_back("the sky is left out");
   const double exact = 1e-9 * scene.bounds().diagonal();
   std::vector<std::string_view> flat, near, torn;
-  double deviation = 0, lost = 0;
+  double deviation = 0, thin = 0;
   for (const Triangulated& t : triangulated) {
     (t.deviation > exact ? near : flat).push_back(t.object);
     if (t.lost > 0) torn.push_back(t.object);
     deviation = std::max(deviation, t.deviation);
-    lost = std::max(lost, t.lost);
+    thin = std::max(thin, t.lost);
   }
   if (!flat.empty()) {
     notes.push_back(fmt::format("flat triangles stand for what {} does not have: {}", format.name,
@@ -280,7 +282,7 @@ std::vector<std::string> notes_of(const Scene& scene, const SurfaceFormat& forma
   }
   if (!torn.empty()) {
     notes.push_back(
-        fmt::format("parts thinner than {:.2g} m may be missing: {}", lost, enumerated(torn)));
+        fmt::format("parts thinner than {:.2g} m may be missing: {}", thin, enumerated(torn)));
   }
   return notes;
 }

@@ -51,6 +51,7 @@ struct SurfaceFormat {
   std::string name;
   bool torus = false;
   std::size_t most_corners = 0;  ///< of a face
+  bool infinity = false;         ///< light that comes from there: the sky, directional sources
 };
 
 /// An object that triangles stand for, and how well.
@@ -66,8 +67,8 @@ struct Triangulated {
 std::vector<SimpleSurface> simple_surfaces(const Object& object, const SurfaceFormat& format,
                                            std::vector<Triangulated>& triangulated);
 
-/// What writers of such formats note: cameras, lights without a surface and a sky, which are left
-/// out, and objects that triangles stand for.
+/// What writers of such formats note: cameras, lights without a surface and the sky, as far as they
+/// are left out, and objects that triangles stand for.
 std::vector<std::string> notes_of(const Scene& scene, const SurfaceFormat& format,
                                   const std::vector<Triangulated>& triangulated);
 

@@ -24,7 +24,7 @@ class SkyDome {
   MeshPlace place(const Vec3& direction) const;
 
  private:
-  static constexpr std::uint32_t kSide = 65;  // nodes a side
+  static constexpr std::uint32_t kSide = 129;  // nodes a side
   Frame frame_;
   std::vector<Rgb> radiosity_;
 };

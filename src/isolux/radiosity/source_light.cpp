@@ -85,7 +85,9 @@ double arriving_flux(const RayCaster& rays, const Source& source) {
 }
 
 double arriving_flux(const RayCaster& rays, const Sky& sky) {
-  constexpr int kGrid = 32;  // strata a side, of directions and, for each of them, of rays
+  constexpr int kGrid = 512;  // strata of directions a side
+  // Steps of Roberts's (2018) sequence in two dimensions: powers of the root of x³ = x + 1.
+  constexpr double kStep = 0.7548776662466927, kOtherStep = 0.5698402909980532;
   const Bounds bounds = rays.scene().bounds();
   const double radius = bounds.diagonal() / 2;
   Random random(0, 0);
@@ -94,22 +96,16 @@ double arriving_flux(const RayCaster& rays, const Sky& sky) {
     const double z = 1 - 2 * (k / kGrid + random.uniform()) / kGrid;
     const double azimuth = 2 * std::numbers::pi * (k % kGrid + random.uniform()) / kGrid;
     const double s = std::sqrt(std::max(0.0, 1 - z * z));
-    const Vec3 from{s * std::cos(azimuth), s * std::sin(azimuth), z};
-    const double light = luminance(sky.luminance(from));
+    const Frame frame({s * std::cos(azimuth), s * std::sin(azimuth), z});
+    const double light = luminance(sky.luminance(frame.n));
     if (!(light > 0)) continue;
-    const Frame frame(from);
-    int arrived = 0;
-    for (int cell = 0; cell < kGrid * kGrid; ++cell) {
-      const double r = radius * std::sqrt((cell / kGrid + random.uniform()) / kGrid);
-      const double angle = 2 * std::numbers::pi * (cell % kGrid + random.uniform()) / kGrid;
-      const Vec3 across{r * std::cos(angle), r * std::sin(angle), 2 * radius};
-      arrived += arrives(rays, {bounds.center() + frame.to_world(across), -from});
-    }
-    sum += light * arrived;
+    const double r = radius * std::sqrt(std::fmod(k * kStep, 1));
+    const double angle = 2 * std::numbers::pi * std::fmod(k * kOtherStep, 1);
+    const Vec3 across{r * std::cos(angle), r * std::sin(angle), 2 * radius};
+    if (arrives(rays, {bounds.center() + frame.to_world(across), -frame.n})) sum += light;
   }
   // Each ray stands for its part of 4π sr and of the disk across it.
-  const double rays_sent = std::pow(double(kGrid), 4);
-  return sum / rays_sent * 4 * std::numbers::pi * std::numbers::pi * radius * radius;
+  return sum / (kGrid * kGrid) * 4 * std::numbers::pi * std::numbers::pi * radius * radius;
 }
 
 }  // namespace isolux

@@ -9,12 +9,13 @@
 
 #include "isolux/formats/colorimetry.h"
 #include "isolux/formats/identifiers.h"
+#include "isolux/formats/radiance/write_sky.h"
 #include "isolux/formats/simple_surface.h"
 
 namespace isolux {
 namespace {
 
-const SurfaceFormat kRadiance{"Radiance", false, 1000};
+const SurfaceFormat kRadiance{"Radiance", false, 1000, true};
 
 /// Writes the primitives of a scene: all materials first, then the objects. A primitive is
 /// "modifier type name", and three lists headed by their lengths: words, nothing, numbers.
@@ -28,6 +29,10 @@ class RadianceText {
     for (const SimpleSurface& surface : surfaces) {
       std::visit([&](const auto& s) { add(s, material, name); }, surface);
     }
+  }
+
+  void add_light_from_infinity(std::vector<std::string>& notes) {
+    objects_ += radiance::light_from_infinity(scene_, names_, notes);
   }
 
   std::string text() const { return materials_ + objects_; }
@@ -125,7 +130,9 @@ WrittenScene write_radiance(const Scene& scene) {
   for (const Object& object : scene.objects) {
     text.add(object, simple_surfaces(object, kRadiance, triangulated));
   }
-  WrittenScene written{text.text(), notes_of(scene, kRadiance, triangulated)};
+  std::vector<std::string> notes = notes_of(scene, kRadiance, triangulated);
+  text.add_light_from_infinity(notes);
+  WrittenScene written{text.text(), std::move(notes)};
   note_sides(scene, written.notes);
   return written;
 }
