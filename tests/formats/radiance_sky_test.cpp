@@ -131,6 +131,14 @@ TEST(RadianceSky, WhatIsNoSkyIsLeftOutWithANote) {
   EXPECT_THAT(two.notes, ElementsAre("'source' left out: a second sky over the first"));
 }
 
+// As windows are that shine in place of what is seen through them.
+TEST(RadianceSky, SurfacesThatShineLikeTheSkyAreNoted) {
+  const SceneFile file = with_sky(
+      "!gensky -ang 30 0 -s\nskyfunc illum g 0 0 3 1 1 1\ng ring window 0 0 8 0 0 0 0 0 1 0 1\n");
+  EXPECT_FALSE(file.scene.sky.has_value());
+  EXPECT_TRUE(has_note(file, "they shine by their color alone"));
+}
+
 TEST(RadianceSky, WrongOnesAreRefused) {
   const std::pair<const char*, const char*> cases[] = {
       {"!gensky 13 1 12", ":13:9: expected a whole number from 1 to 12, not '13'"},

@@ -95,8 +95,7 @@ Options read_options(const Statement& s) {
   return options;
 }
 
-/// What the brightness of a sky with a sun is divided by, about its value in the zenith where
-/// `zenith` is 1.
+/// The value of a sky's function (SkyPattern) in the zenith, as gensky has it.
 double normalization(const Options& options) {
   const double from_zenith = pi / 2 - options.sun.altitude, sine = std::sin(options.sun.altitude);
   if (options.type == Type::clear) {

@@ -292,7 +292,11 @@ void Materials::note(Modifier& modifier) {
 const Finish& Materials::finish_of(std::string_view name) {
   const std::size_t first = require(name);
   for (std::size_t i = first; !modifiers_[i].noted; i = modifiers_[i].next) note(modifiers_[i]);
-  return finishes_[modifiers_[first].finish];
+  const Finish& finish = finishes_[modifiers_[first].finish];
+  if (modifiers_[first].pattern.sky && max_channel(finish.exitance) > 0) {
+    notes_.add("lights with the pattern of a sky that are none: they shine by their color alone");
+  }
+  return finish;
 }
 
 SourceLight Materials::source_light_of(std::string_view name) {

@@ -69,8 +69,7 @@ void for_directions(double cos_sun, F f) {
   }
 }
 
-/// Radiance's intermediate sky before its normalization: the function of Nakamura, Oki et al. in
-/// skybright.cal.
+/// Radiance's intermediate sky (skybright.cal), before its normalization.
 double intermediate(double cos_z, double cos_chi, double cos_sun) {
   const double z = std::acos(std::clamp(cos_z, -1.0, 1.0));
   const double chi = std::acos(std::clamp(cos_chi, -1.0, 1.0));

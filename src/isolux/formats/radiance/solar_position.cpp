@@ -34,7 +34,7 @@ constexpr Zone kZones[] = {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-/// Days before the month in a year without a leap day.
+/// Counting from 1, in a year without a leap day.
 int day_of_year(int month, int day) {
   constexpr std::array kDays = {0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334};
   return kDays.at(static_cast<std::size_t>(month - 1)) + day;
