@@ -47,6 +47,27 @@ TEST(RadianceGensky, TheSunIsFainterNearTheHorizon) {
   EXPECT_LT(relative(file.scene.sky->ground.g, written.ground.g), 3e-3);
 }
 
+// What it wrote for "gensky 3 20 10 -a 40 -o 98 -m 105" in a version whose declination had 368 days
+// in the place of 365, and the angles of "gensky 7 4 14:30 +s": 57.0 and 73.1 degrees.
+TEST(RadianceGensky, DatesItHasWritten) {
+  const SceneFile march = with_sky("!gensky 3 20 10 -a 40 -o 98 -m 105 -g 1\n" + kDome);
+  const Source& sun = march.scene.sources.at(0);
+  expect_near(sun.direction, -Vec3{0.421409, -0.593560, 0.685639}, 3e-4);
+  EXPECT_LT(relative(luminance(sun.intensity), 6.73e6 * kEfficacy * kSunAngle), 1e-3);
+  // "Ground ambient level: 14.6", from the sky alone.
+  const double by_sun = 6e-5 / pi * 6.73e6 * 0.685639;
+  EXPECT_LT(relative(luminance(march.scene.sky->ground), (14.6 + by_sun) * kEfficacy), 1e-3);
+  const SceneFile july = with_sky("!gensky 7 4 14:30 +s\n");
+  EXPECT_LT(angle_between(-july.scene.sources.at(0).direction, toward(90 - 57.0, 73.1)),
+            0.1 * kDegree);
+}
+
+// What daylight factors are reckoned from: 55.866 W/m² are 10,000 lx.
+TEST(RadianceGensky, TenThousandLux) {
+  const Sky sky = dome("!gensky 3 21 +12:00 -c -B 55.866");
+  EXPECT_NEAR(luminance(sky.zenith) * horizontal_illuminance(sky.distribution, 1), 10'000, 1);
+}
+
 // By hand, from gensky(1) and the solar formulas of the IES Lighting Handbook: day 337, declination
 // 0.4093 sin(2 π 256 / 365) = −0.39034; solar time 13 + 0.170 sin(4 π 257 / 373) − 0.129
 // sin(2 π 329 / 355) + 12 / π (2.09440 − 2.13) = 13.0392 at the default site, 0.66 rad north and
