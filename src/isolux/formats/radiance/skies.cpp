@@ -70,6 +70,34 @@ Vec3 Skies::up() const {
   return most < 0 ? -d : d;
 }
 
+std::optional<Sky> Skies::sky_of(const Source& source) const {
+  const Rgb& luminance = source.light.luminance;
+  const SkyPattern* const pattern = source.light.pattern.sky.get();
+  if (!pattern) {
+    Sky uniform;
+    uniform.zenith = uniform.ground = luminance;
+    return uniform;
+  }
+  const auto patterned = radiance::sky_of(*pattern);
+  if (!patterned) {
+    notes_.left_out("source", "its sky is darker than 0 in places, or not finite");
+    return std::nullopt;
+  }
+  if (pattern->colored) {
+    notes_.add("'perezlum_c.cal': its color goes with the luminance; the sky is plain");
+  }
+  if (patterned->nearest_type > 0) {
+    notes_.add(
+        fmt::format("the intermediate sky: the CIE sky of type {} is nearest, and gives the same "
+                    "illuminance",
+                    patterned->nearest_type));
+  }
+  Sky sky = patterned->sky;
+  sky.zenith = luminance * sky.zenith;
+  sky.ground = luminance * sky.ground;
+  return sky;
+}
+
 std::optional<Sky> Skies::sky() const {
   if (sources_.empty()) return std::nullopt;
   Sky sky;
@@ -87,37 +115,20 @@ std::optional<Sky> Skies::sky() const {
     if ((above && has_zenith) || (below && has_ground)) {
       notes_.left_out("source", "a second sky over the first");
     }
-    if (!(above && !has_zenith) && !(below && !has_ground)) continue;
-    PatternedSky own{{}, 0};
-    own.sky.zenith = own.sky.ground = gray(1);
-    own.sky.up = own.sky.sun = sky.up;
-    if (pattern) {
-      const auto patterned = sky_of(*pattern);
-      if (!patterned) {
-        notes_.left_out("source", "its sky is darker than 0 in places, or not finite");
-        continue;
-      }
-      own = *patterned;
-      if (pattern->colored) {
-        notes_.add("'perezlum_c.cal': its color goes with the luminance; the sky is plain");
-      }
-    }
-    if (above && !has_zenith) {
+    const bool makes_zenith = above && !has_zenith, makes_ground = below && !has_ground;
+    if (!makes_zenith && !makes_ground) continue;
+    const auto own = sky_of(source);
+    if (!own) continue;
+    if (makes_zenith) {
       has_zenith = true;
-      sky.distribution = own.sky.distribution;
-      sky.sun = own.sky.sun;
-      sky.zenith = source.light.luminance * own.sky.zenith.r;
+      sky.distribution = own->distribution;
+      sky.sun = pattern ? own->sun : sky.up;
+      sky.zenith = own->zenith;
       require_dim(sky.zenith * brightest(sky), source.place);
-      if (own.nearest_type > 0) {
-        notes_.add(
-            fmt::format("the intermediate sky: the CIE sky of type {} is nearest, and gives "
-                        "the same illuminance",
-                        own.nearest_type));
-      }
     }
-    if (below && !has_ground) {
+    if (makes_ground) {
       has_ground = true;
-      sky.ground = source.light.luminance * own.sky.ground.r;
+      sky.ground = own->ground;
       require_dim(sky.ground, source.place);
     }
   }

@@ -46,6 +46,9 @@ class Skies {
 
   /// The zenith by the first source with a sky as its pattern; else by the first of all.
   Vec3 up() const;
+  /// What the source alone would make; uniform, about +z, without a pattern. Nothing, and a note,
+  /// where that can't be.
+  std::optional<Sky> sky_of(const Source& source) const;
 
   Notes& notes_;
   std::vector<Source> sources_;
