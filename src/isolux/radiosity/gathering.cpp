@@ -53,6 +53,7 @@ void Gathering::run() {
       gather_all(HemisphereGather::kFinestGrid);
       transfer();
     }
+    look_around();
     estimate();
     if (stopped_ || !next_level()) break;
   }
@@ -73,6 +74,7 @@ void Gathering::first_solution() {
   state_.statistics.emitted_flux = emitted_flux();
   gather_all(trial_grid());
   transfer();
+  look_around();
   estimate();
 }
 

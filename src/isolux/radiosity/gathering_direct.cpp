@@ -13,7 +13,7 @@ namespace {
 // The part of the tolerance that interpolation of E_d may cost.
 constexpr double kDirectShare = 0.55;
 
-// Edges are not split to less than this part of the tolerance times the scene's diagonal.
+// Edges are not split to less than this part of the tolerance times the size of the room.
 constexpr double kHairline = 0.1;
 
 // A round of splits takes on the worst edges, which make up this part of the estimated error
@@ -233,7 +233,7 @@ double Gathering::direct_bend(const Edge& edge) const {
 /// takes four times the edges, and where shadows are hard there is no end to it: what such edges
 /// are off is in the errors of their vertices and told by itself, but left out of the whole.
 bool Gathering::hairline(const Edge& edge) const {
-  const double shortest = kHairline * state_.level * diagonal_;
+  const double shortest = kHairline * state_.level * std::min(extent(edge.a), extent(edge.b));
   return distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) < shortest;
 }
 

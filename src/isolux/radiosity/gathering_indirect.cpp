@@ -177,23 +177,23 @@ std::vector<Edge> Gathering::suspect_edges(std::span<const Edge> edges, double b
 }
 
 double Gathering::most_bend(VertexId v) const {
-  return kMostBend * leniency(area_around(v)) * state_.level * scale(v);
+  return kMostBend * leniency(v, area_around(v)) * state_.level * scale(v);
 }
 
 /// How much more may be wrong at a vertex whose triangles, of that area, are too small to stand
 /// out.
-double Gathering::leniency(double area) const {
-  constexpr double kSmall = 0.01;  // of the diagonal
+double Gathering::leniency(VertexId v, double area) const {
+  constexpr double kSmall = 0.01;  // of the room
   constexpr double kMost = 3;
   const double size = std::sqrt(area);
-  return size > 0 ? std::clamp(std::sqrt(kSmall * diagonal_ / size), 1.0, kMost) : kMost;
+  return size > 0 ? std::clamp(std::sqrt(kSmall * extent(v) / size), 1.0, kMost) : kMost;
 }
 
 /// Whether an error e in the middle of an edge is worth a split even where the area is small.
 bool Gathering::stands_out(const Edge& edge, double e) const {
   return std::abs(e) > std::max(most_bend(edge.a), most_bend(edge.b)) &&
          distance(mesh_.vertex(edge.a).position, mesh_.vertex(edge.b).position) >
-             kFinest * mesh_.rules().max_edge;
+             kFinest * mesh_.rules().max_edge * extent(edge.a) / diagonal_;
 }
 
 /// Gives the vertices links, and learns how right the rule for them was.

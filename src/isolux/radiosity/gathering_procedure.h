@@ -26,7 +26,8 @@ namespace isolux {
 //   τ                the tolerance
 
 /// One run of gather_radiosity(): the procedure in gathering.cpp, the refinement for E_d in
-/// gathering_direct.cpp, what lies hidden in gathering_hidden.cpp, links for E_i in
+/// gathering_direct.cpp, what surrounds a vertex in
+/// gathering_surroundings.cpp, what lies hidden in gathering_hidden.cpp, links for E_i in
 /// gathering_rays.cpp, its transfer in gathering_transfer.cpp, and its refinement in
 /// gathering_indirect.cpp.
 class Gathering {
@@ -94,6 +95,12 @@ class Gathering {
   double emitted_flux() const;
   void estimate();
   void finish();
+
+  // What surrounds a vertex
+  void look_around();
+  const Surroundings* around(VertexId v) const;
+  double usual_irradiance(VertexId v) const;
+  double extent(VertexId v) const;
 
   // E_d
   struct Middle {  // of an edge
@@ -194,7 +201,7 @@ class Gathering {
   double bend_beside(VertexId v) const;
   double surprise(VertexId v) const;
   double most_bend(VertexId v) const;
-  double leniency(double area) const;
+  double leniency(VertexId v, double area) const;
   bool stands_out(const Edge& edge, double e) const;
   EdgeError indirect_error(const Edge& e) const;
   double likely_indirect_error(const Edge& e) const;
@@ -212,9 +219,9 @@ class Gathering {
     return static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
   }
 
-  /// What errors at a vertex are held against, lx: the mean of E over all surfaces, or E there
-  /// where that is more. Else the inside of a small lamp would be all that counts.
-  double scale(VertexId v) const { return std::max(mean_irradiance(), luminance(irradiance(v))); }
+  /// What errors at a vertex are held against, lx: the usual E, or E there where that is more. Else
+  /// the inside of a small lamp would be all that counts.
+  double scale(VertexId v) const { return std::max(usual_irradiance(v), luminance(irradiance(v))); }
   double scale(const Edge& edge) const { return (scale(edge.a) + scale(edge.b)) / 2; }
 
   /// What an error in the middle of an edge adds to the square of the error over all surfaces, m².

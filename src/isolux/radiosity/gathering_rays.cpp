@@ -87,8 +87,8 @@ std::vector<int> Gathering::wanted_grids() {
   constexpr double kDim = 0.25;  // of the mean irradiance
   std::vector<int> grids(state_.light.size(), coarsest_grid());
   if (!(mean_irradiance() > 0)) return grids;
-  const std::vector<double> around = areas_around();
-  const std::vector<double> areas = areas_of_influence(around), doubt = doubts();
+  const std::vector<double> areas_at = areas_around();
+  const std::vector<double> areas = areas_of_influence(areas_at), doubt = doubts();
   const auto worth = [&](VertexId v) {
     return std::pow(areas[v] * doubt[v] / square(scale(v)), 1 / (1 + kFall));
   };
@@ -100,8 +100,8 @@ std::vector<int> Gathering::wanted_grids() {
   const double fineness = std::pow(sum / allowed, 1 / kFall);
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
-      const double e = std::max(luminance(irradiance(v)), kDim * mean_irradiance());
-      const double most = square(kMostNoise * leniency(around[v]) * state_.level * e);
+      const double e = std::max(luminance(irradiance(v)), kDim * usual_irradiance(v));
+      const double most = square(kMostNoise * leniency(v, areas_at[v]) * state_.level * e);
       const double least = std::pow(doubt[v] / most, 1 / kFall);
       const double side = std::ceil(std::sqrt(std::max(fineness * worth(v), least)));
       grids[v] = static_cast<int>(

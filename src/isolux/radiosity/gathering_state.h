@@ -49,6 +49,12 @@ struct EdgeFinding {
   float deviation = 0;
 };
 
+/// What a vertex sees of other surfaces, on average over its hemisphere.
+struct Surroundings {
+  double irradiance = 0;  ///< of theirs, lx; 0 where none is seen
+  double distance = 0;    ///< m
+};
+
 /// What gathering knows between two of its rounds: enough to go on from there.
 struct GatheringState {
   explicit GatheringState(Triangulation triangulation) : mesh(std::move(triangulation)) {}
@@ -65,9 +71,10 @@ struct GatheringState {
   }
 
   Triangulation mesh;
-  std::vector<VertexLight> light;  // by vertex
-  SiteTable sites;                 // where the links in `light` lead
-  std::vector<Rgb> sent;           // E by vertex as its triangles have it on average, lx
+  std::vector<VertexLight> light;    // by vertex
+  SiteTable sites;                   // where the links in `light` lead
+  std::vector<Surroundings> around;  // by vertex, of the older ones; empty where there is no sky
+  std::vector<Rgb> sent;             // E by vertex as its triangles have it on average, lx
   /// What was found in the middle of edges, by the ends a < b: a × 2³² + b.
   std::unordered_map<std::uint64_t, MiddleLight> middles;
   std::unordered_map<std::uint64_t, EdgeFinding> indirect_findings;

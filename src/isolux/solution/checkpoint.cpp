@@ -191,6 +191,7 @@ json state_to_json(const GatheringState& state) {
   put(object, "links", links);
   put(object, "divided", divided);
   put(object, "sites", std::vector(state.sites.sites().begin(), state.sites.sites().end()));
+  put(object, "surroundings", state.around);
   put(object, "sent", state.sent);
   std::vector<PackedMiddle> middles;
   for (const auto& [edge, light] : state.middles) middles.push_back({edge, light});
@@ -268,6 +269,11 @@ GatheringState state_from_json(const json& object, Triangulation mesh, const Sce
     }
   }
   if (state.sent.size() != vertex_count) damaged("sent");
+  state.around = get<Surroundings>(object, "surroundings");
+  if (state.around.size() > vertex_count) damaged("surroundings");
+  for (std::size_t v = state.around.size(); v < vertex_count && !state.around.empty(); ++v) {
+    if (state.light[v].among.vertices[0] >= v) damaged("light");
+  }
   for (const PackedMiddle& p : get<PackedMiddle>(object, "middles")) {
     state.middles[p.edge] = p.light;
   }
