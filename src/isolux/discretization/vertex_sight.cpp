@@ -41,6 +41,13 @@ VertexSight::VertexSight(const Triangulation& mesh, const FacetGrids& grids, con
   }
 }
 
+/// Whether one lies in the tangent plane of the other, as far as they are turned from each other.
+bool VertexSight::in_one_sheet(const SurfacePoint& a, const SurfacePoint& b) const {
+  const Vec3 d = b.position - a.position;
+  const double hair = 4 * walk_.rays().epsilon();
+  return std::abs(dot(d, a.normal)) <= hair + length(d) * length(cross(a.normal, b.normal));
+}
+
 std::optional<MeshPlace> VertexSight::place(const SurfacePoint& from) const {
   constexpr double kLittle = 1e-3, kEnough = 0.5;  // of the weights
   const Vec3 from_middle = from.position - grids_.middle();

@@ -6,15 +6,16 @@
 namespace isolux {
 
 /// Which vertices have the light that is at a point, where sheets cross at small angles or lie
-/// close over one another: those that can be seen from it along the surface, and hidden ones, to
-/// which light was given. Keeps the facets and the mesh by reference.
+/// close over one another: those that can be seen from it along the surface, and hidden ones of its
+/// sheet, to which light was given. Keeps the facets and the mesh by reference.
 class VertexSight {
  public:
   VertexSight(const Triangulation& mesh, const FacetGrids& grids, const RayCaster& rays);
 
   /// Whether a vertex has the light that is there beside the point.
   bool sees(const SurfacePoint& from, VertexId v) const {
-    return mesh_.vertex(v).hidden || walk_.open(from, mesh_.vertex(v));
+    const Vertex& vertex = mesh_.vertex(v);
+    return vertex.hidden ? in_one_sheet(from, vertex) : walk_.open(from, vertex);
   }
 
   /// Whether over a point in this facet, by number, another may have the light: something lies
@@ -26,6 +27,8 @@ class VertexSight {
   std::optional<MeshPlace> place(const SurfacePoint& from) const;
 
  private:
+  bool in_one_sheet(const SurfacePoint& a, const SurfacePoint& b) const;
+
   const Triangulation& mesh_;
   const FacetGrids& grids_;
   SurfaceWalk walk_;

@@ -42,13 +42,16 @@ class Gathering {
   static constexpr std::size_t kChunk = 8192;  // work between two looks at the clock
   static constexpr std::size_t kGrain = 256;
 
-  // Rays over a hemisphere, cells a side: the least, and the most until it is known who gathers.
-  // The sky may show through openings that fewer would miss.
-  int coarsest_grid() const { return rays_.scene().sky ? 24 : 8; }
-  int trial_grid() const { return rays_.scene().sky ? 32 : 12; }
-
-  // Of grids finer than the first not all rays are kept, but those over the second.
+  // Of grids of rays finer than the first, in cells a side, not all rays are kept, but those over
+  // the second.
   static constexpr int kWholeGrid = 12, kKeptGrid = 8;
+
+  // Rays over a hemisphere, cells a side: the least, and the most until it is known who gathers.
+  // The sky may show through openings that fewer would miss; but first it must be known how much
+  // light there is, for the sake of rays that are not kept.
+  bool sky_shows() const { return rays_.scene().sky && mean_irradiance() > 0; }
+  int coarsest_grid() const { return sky_shows() ? 24 : 8; }
+  int trial_grid() const { return sky_shows() ? 32 : kWholeGrid; }
 
   // Of a linear function's error squared over a triangle, as a mean: 8/45 (Σ e² + Σ e e') for the
   // errors e in the middles of its sides, quadratic between them; at most this times Σ e².

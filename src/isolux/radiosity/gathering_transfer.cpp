@@ -11,6 +11,9 @@ namespace {
 constexpr double kRoughUnshotShare = 0.1;
 constexpr double kUnshotShare = 0.02;
 
+/// What few rays bring, and all brought more under other light, may add up to less than nothing.
+Rgb positive(const Rgb& c) { return {std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)}; }
+
 }  // namespace
 
 /// E_i by links, under the light as of light_sites(), with its σ.
@@ -24,12 +27,12 @@ Gathered Gathering::gather(const Row<Link>& row) const {
 Gathered Gathering::gather(const TracedRow& row) const {
   if (row.grid == row.links.grid) return gather(row.links);
   const Rgb irradiance = isolux::gather(row.links, site_light_) + row.beyond.irradiance;
-  return {irradiance * state_.balance, row.beyond.error};
+  return {positive(irradiance) * state_.balance, row.beyond.error};
 }
 
 /// E_i of a vertex that gathers, under the light as of light_sites().
 Rgb Gathering::gathered_by(const VertexLight& light) const {
-  return (isolux::gather(light.row, site_light_) + light.beyond) * state_.balance;
+  return positive(isolux::gather(light.row, site_light_) + light.beyond) * state_.balance;
 }
 
 /// E_i of vertices with links, under the light of the moment, with its σ.

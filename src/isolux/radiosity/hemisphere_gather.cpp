@@ -274,7 +274,7 @@ bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& h
 
 /// Where the mesh has the light of what a ray met, under a triangle if `covering`. Where no
 /// triangle lies, vertices near by have it; but where surfaces come closer than the mesh can
-/// follow, as where bodies touch, one is as dark as the other.
+/// follow, as where bodies touch, one is as dark as the other, and as the darkest place around.
 std::optional<MeshPlace> HemisphereGather::place_of(
     const Receiver& receiver, const SurfaceHit& hit,
     const std::optional<MeshPlace>& covering) const {
@@ -283,7 +283,20 @@ std::optional<MeshPlace> HemisphereGather::place_of(
       covered ? covering : lookup_.nearest(hit.point, hit.normal);
   if (!place || !much_closer(receiver, hit, *place, covered)) return place;
   const auto own = lookup_.covering(receiver.point, receiver.normal);
-  return own ? own : place;
+  return own ? std::optional(darkest_of(*own)) : std::nullopt;
+}
+
+/// The darkest of the vertices that a place lies among; the place itself where it is a vertex.
+MeshPlace HemisphereGather::darkest_of(const MeshPlace& place) const {
+  constexpr double kThere = 0.99;  // of the weights
+  const auto& [vertices, weights] = place;
+  if (irradiance_.empty() || *std::max_element(weights.begin(), weights.end()) > kThere) {
+    return place;
+  }
+  const VertexId darkest =
+      *std::min_element(vertices.begin(), vertices.end(),
+                        [&](VertexId v, VertexId w) { return irradiance_[v] < irradiance_[w]; });
+  return {{darkest, darkest, darkest}, {1, 0, 0}};
 }
 
 Landing HemisphereGather::landing_at(std::uint32_t surface, const MeshPlace& place) {

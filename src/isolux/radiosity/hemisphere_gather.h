@@ -94,6 +94,7 @@ class HemisphereGather {
                      const std::optional<MeshPlace>& covering) const;
   std::optional<MeshPlace> place_of(const Receiver& receiver, const SurfaceHit& hit,
                                     const std::optional<MeshPlace>& covering) const;
+  MeshPlace darkest_of(const MeshPlace& place) const;
   bool much_closer(const Receiver& receiver, const SurfaceHit& hit, const MeshPlace& place,
                    bool covered) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
@@ -116,7 +117,7 @@ class HemisphereGather {
   std::vector<Surface> surfaces_;  // by Site::surface
   std::optional<SkyDome> sky_;
   BrightPlaces bright_;
-  std::vector<float> irradiance_;  // by vertex, lx, if there are bright places
+  std::vector<float> irradiance_;  // by vertex, lx; empty where it is not known
   double mean_irradiance_ = 0;     // lx
 };
 
