@@ -50,7 +50,10 @@ std::optional<MeshPlace> MeshLookup::covering(const Vec3& point, const Vec3& nor
   for (int grid = 0; grid < grids_.count() && !search.sure; ++grid) {
     look_among(grids_.voxels().find(grids_.voxel_of(search.from_middle, grid)), search);
   }
-  return doubtful(search) ? sight_->place(surface_point(point, normal)) : search.place();
+  const SurfacePoint from = surface_point(point, normal);
+  const bool doubt =
+      doubtful(search) || (sight_ && search.best && !sight_->in_sheet(from, *search.best));
+  return doubt ? sight_->place(from) : search.place();
 }
 
 void MeshLookup::covering(std::span<const std::optional<SurfaceHit>> hits,

@@ -41,11 +41,25 @@ VertexSight::VertexSight(const Triangulation& mesh, const FacetGrids& grids, con
   }
 }
 
+bool VertexSight::in_sheet(const SurfacePoint& from, const Facet& facet) const {
+  const auto at = [&](std::size_t k) -> const Vertex& {
+    return mesh_.vertex(facet.vertices[k % 3]);
+  };
+  double turned = 0, longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    turned = std::max(turned, length(cross(at(k).normal, at(k + 1).normal)));
+    longest = std::max(longest, distance(at(k).position, at(k + 1).position));
+  }
+  const Vec3 normal =
+      normalized(cross(at(1).position - at(0).position, at(2).position - at(0).position));
+  const double height = std::abs(dot(from.position - at(0).position, normal));
+  return height <= hair() + turned * longest;
+}
+
 /// Whether one lies in the tangent plane of the other, as far as they are turned from each other.
 bool VertexSight::in_one_sheet(const SurfacePoint& a, const SurfacePoint& b) const {
   const Vec3 d = b.position - a.position;
-  const double hair = 4 * walk_.rays().epsilon();
-  return std::abs(dot(d, a.normal)) <= hair + length(d) * length(cross(a.normal, b.normal));
+  return std::abs(dot(d, a.normal)) <= hair() + length(d) * length(cross(a.normal, b.normal));
 }
 
 std::optional<MeshPlace> VertexSight::place(const SurfacePoint& from) const {
@@ -61,6 +75,8 @@ std::optional<MeshPlace> VertexSight::place(const SurfacePoint& from) const {
     }
   }
   std::sort(candidates.begin(), candidates.end());
+  const bool in_first =
+      !candidates.empty() && in_sheet(from, grids_.facets()[candidates.front().facet]);
   std::optional<MeshPlace> best;
   double most = kEnough;
   for (const FacetOver& candidate : candidates) {
@@ -70,7 +86,7 @@ std::optional<MeshPlace> VertexSight::place(const SurfacePoint& from) const {
       double& w = place.weights[k];
       const VertexId v = place.vertices[k];
       // In the sheet that the point is on, a vertex that nothing covers is in sight.
-      const bool plain = &candidate == candidates.data() && !covered_vertices_[v];
+      const bool plain = &candidate == candidates.data() && !covered_vertices_[v] && in_first;
       if (w < kLittle || !(plain || sees(from, v))) w = 0;
       sum += w;
     }

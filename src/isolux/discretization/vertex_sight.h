@@ -22,12 +22,17 @@ class VertexSight {
   /// over a vertex of it.
   bool doubtful(std::size_t facet) const { return covered_[facet]; }
 
+  /// Whether the point lies as close to the facet as it may where that stands for its surface: in
+  /// its plane, as far as its vertices are not turned from each other.
+  bool in_sheet(const SurfacePoint& from, const Facet& facet) const;
+
   /// The place among those vertices that the point sees: of a triangle all of which it sees, else
   /// in the part of one.
   std::optional<MeshPlace> place(const SurfacePoint& from) const;
 
  private:
   bool in_one_sheet(const SurfacePoint& a, const SurfacePoint& b) const;
+  double hair() const { return 4 * walk_.rays().epsilon(); }
 
   const Triangulation& mesh_;
   const FacetGrids& grids_;
