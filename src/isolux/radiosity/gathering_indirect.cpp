@@ -102,7 +102,7 @@ double Gathering::surprise(VertexId v) const {
 void Gathering::refine_indirect() {
   constexpr int kMostRounds = 24;
   constexpr std::size_t kFew = 500;  // edges for each place that is not worth another round
-  const double target = square(kIndirectShare * state_.level) * area();
+  const double target = square(kIndirectShare * state_.level) * weight();
   state_.indirect_findings.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     const std::vector<Edge> edges = living_edges(mesh_);
@@ -124,7 +124,8 @@ std::vector<VertexId> Gathering::doubtful_vertices(double budget) const {
   const std::vector<double> around = areas_around();
   for (VertexId v = 0; v < state_.light.size(); ++v) {
     if (state_.light[v].gathers) continue;
-    ranked.emplace_back(kMeanSquare * square(state_.light[v].bend / scale(v)) * around[v], v);
+    ranked.emplace_back(
+        kMeanSquare * square(state_.light[v].bend / scale(v)) * around[v] * importance(v), v);
   }
   std::sort(ranked.begin(), ranked.end(), std::greater<>());
   const std::size_t n = worth_taking<VertexId>(ranked, budget);

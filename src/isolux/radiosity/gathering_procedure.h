@@ -81,10 +81,10 @@ class Gathering {
         const auto [f, v] = between(b, c);
         const auto [g, w] = between(c, a);
         const double sum = e * e + f * f + g * g + e * f + f * g + g * e + u + v + w;
-        squares[i] = kMeanSquare / 2 * sum * triangles[i].area;
+        squares[i] = kMeanSquare / 2 * sum * weight(triangles[i]);
       }
     });
-    return std::accumulate(squares.begin(), squares.end(), 0.0) / area();
+    return std::accumulate(squares.begin(), squares.end(), 0.0) / weight();
   }
 
   // The procedure
@@ -104,6 +104,9 @@ class Gathering {
   const Surroundings* around(VertexId v) const;
   double usual_irradiance(VertexId v) const;
   double extent(VertexId v) const;
+  double importance(VertexId v) const { return square(diagonal_ / extent(v)); }
+  double weight(const Triangle& triangle) const;
+  void weigh();
 
   // E_d
   struct Middle {  // of an edge
@@ -213,6 +216,7 @@ class Gathering {
   Rgb irradiance(VertexId v) const { return state_.light[v].direct + state_.light[v].indirect; }
   void sum_up(VertexId v);
   double area() const { return state_.statistics.mesh_area; }
+  double weight() const { return rays_.scene().sky ? state_.weight : area(); }
   double mean_irradiance() const { return state_.statistics.mean_irradiance; }
   double variance_of(VertexId v) const;
   double mean_variance(const Triangle& triangle) const;
@@ -229,7 +233,8 @@ class Gathering {
 
   /// What an error in the middle of an edge adds to the square of the error over all surfaces, m².
   double cost(const Edge& edge, double e) const {
-    return kMeanSquare * square(e / scale(edge)) * edge.area;
+    return kMeanSquare * square(e / scale(edge)) * edge.area *
+           ((importance(edge.a) + importance(edge.b)) / 2);
   }
 
   /// Of interpolation in the middle of an edge as far as it was looked at, lx, positive where it is

@@ -88,7 +88,9 @@ std::vector<int> Gathering::wanted_grids() {
   std::vector<int> grids(state_.light.size(), coarsest_grid());
   if (!(mean_irradiance() > 0)) return grids;
   const std::vector<double> areas_at = areas_around();
-  const std::vector<double> areas = areas_of_influence(areas_at), doubt = doubts();
+  std::vector<double> weights = areas_at;
+  for (VertexId v = 0; v < weights.size(); ++v) weights[v] *= importance(v);
+  const std::vector<double> areas = areas_of_influence(std::move(weights)), doubt = doubts();
   const auto worth = [&](VertexId v) {
     return std::pow(areas[v] * doubt[v] / square(scale(v)), 1 / (1 + kFall));
   };
@@ -96,7 +98,7 @@ std::vector<int> Gathering::wanted_grids() {
   for (VertexId v = 0; v < areas.size(); ++v) {
     if (state_.light[v].gathers) sum += worth(v);
   }
-  const double allowed = square(kSamplingShare * state_.level) * area() / kHat;
+  const double allowed = square(kSamplingShare * state_.level) * weight() / kHat;
   const double fineness = std::pow(sum / allowed, 1 / kFall);
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {

@@ -48,6 +48,7 @@ void Gathering::look_around() {
     }
     state_.around[v] = sum;
   }
+  weigh();
 }
 
 /// The vertex whose surroundings stand for those of v; none before look_around().
@@ -67,11 +68,27 @@ double Gathering::usual_irradiance(VertexId v) const {
 }
 
 /// The size of the room that a vertex stands in, m: that of the scene; under a sky, as far as it
-/// sees, where that is less.
+/// sees, where that is less, but no less than a small room.
 double Gathering::extent(VertexId v) const {
   constexpr double kAcross = 3;  // of the mean distance: a cube's diagonal is 2.6 times that
+  constexpr double kSmallest = 1.0 / 30;  // of the diagonal
   const Surroundings* const seen = around(v);
-  return seen && seen->distance > 0 ? std::min(kAcross * seen->distance, diagonal_) : diagonal_;
+  if (!seen || seen->distance == 0) return diagonal_;
+  return std::clamp(kAcross * seen->distance, kSmallest * diagonal_, diagonal_);
+}
+
+/// What a triangle counts in the error over all surfaces, m²: its area, as if the room that it is
+/// in were as large as the scene. Else the ground outside would be all that counts.
+double Gathering::weight(const Triangle& triangle) const {
+  const auto& [a, b, c] = triangle.vertices;
+  return triangle.area * ((importance(a) + importance(b) + importance(c)) / 3);
+}
+
+void Gathering::weigh() {
+  state_.weight = 0;
+  for (const Triangle& triangle : mesh_.triangles()) {
+    if (triangle.alive) state_.weight += weight(triangle);
+  }
 }
 
 }  // namespace isolux
