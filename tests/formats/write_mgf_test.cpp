@@ -178,8 +178,8 @@ TEST(WriteMgf, PartsOfASolidKeepTheirMaterials) {
 
 TEST(WriteMgf, TheSkyIsNoted) {
   Scene scene = one_object(std::make_shared<Sphere>(Vec3{}, 1));
-  scene.sky = Sky{};
-  EXPECT_THAT(write_mgf(scene).notes, ElementsAre("the sky is left out"));
+  scene.sky.emplace().zenith = gray(1);
+  EXPECT_THAT(write_mgf(scene).notes, ElementsAre("the sky is left out: MGF has none"));
 }
 
 }  // namespace

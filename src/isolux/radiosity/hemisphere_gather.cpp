@@ -282,8 +282,8 @@ std::optional<MeshPlace> HemisphereGather::place_of(
   const std::optional<MeshPlace> place =
       covered ? covering : lookup_.nearest(hit.point, hit.normal);
   if (!place || !much_closer(receiver, hit, *place, covered)) return place;
-  const auto own = lookup_.covering(receiver.point, receiver.normal);
-  return own ? std::optional(darkest_of(*own)) : std::nullopt;
+  const auto own = lookup_.place(receiver.point, receiver.normal);
+  return own ? darkest_of(*own) : *place;
 }
 
 /// The darkest of the vertices that a place lies among; the place itself where it is a vertex.
