@@ -256,7 +256,7 @@ void HemisphereGather::divide_rims(Row<Landing>& row) const {
 
 /// Whether the vertices that have the light of what a ray met are much further from it than its
 /// origin is: in a hole of its mesh, or in a triangle between faces that are turned to each other.
-bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& hit,
+bool HemisphereGather::much_closer(const Origin& origin, const SurfaceHit& hit,
                                    const MeshPlace& place, bool covered) const {
   constexpr double kMuchFurther = 4;
   constexpr double kFacing = -0.7;  // cosine
@@ -266,7 +266,7 @@ bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& h
            distance(nearest.position, hit.point) > kMuchFurther * hit.t;
   }
   if (kMuchFurther * hit.t > mesh_.rules().max_edge) return false;
-  if (dot(receiver.normal, hit.normal) > kFacing) return false;
+  if (dot(origin.receiver.normal, hit.normal) > kFacing) return false;
   return std::all_of(place.vertices.begin(), place.vertices.end(), [&](VertexId v) {
     return distance(mesh_.vertex(v).position, hit.point) > kMuchFurther * hit.t;
   });
@@ -276,14 +276,17 @@ bool HemisphereGather::much_closer(const Receiver& receiver, const SurfaceHit& h
 /// triangle lies, vertices near by have it; but where surfaces come closer than the mesh can
 /// follow, as where bodies touch, one is as dark as the other, and as the darkest place around.
 std::optional<MeshPlace> HemisphereGather::place_of(
-    const Receiver& receiver, const SurfaceHit& hit,
-    const std::optional<MeshPlace>& covering) const {
+    Origin& origin, const SurfaceHit& hit, const std::optional<MeshPlace>& covering) const {
   const bool covered = covering.has_value();
   const std::optional<MeshPlace> place =
       covered ? covering : lookup_.nearest(hit.point, hit.normal);
-  if (!place || !much_closer(receiver, hit, *place, covered)) return place;
-  const auto own = lookup_.place(receiver.point, receiver.normal);
-  return own ? darkest_of(*own) : *place;
+  if (!place || !much_closer(origin, hit, *place, covered)) return place;
+  if (!origin.looked) {
+    origin.looked = true;
+    origin.own = lookup_.place(origin.receiver.point, origin.receiver.normal);
+    if (origin.own) origin.own = darkest_of(*origin.own);
+  }
+  return origin.own ? origin.own : place;
 }
 
 /// The darkest of the vertices that a place lies among; the place itself where it is a vertex.
@@ -307,7 +310,7 @@ Landing HemisphereGather::landing_at(std::uint32_t surface, const MeshPlace& pla
   return landing;
 }
 
-Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,
+Landing HemisphereGather::landing_of(Origin& origin, const Ray& ray,
                                      const std::optional<SurfaceHit>& hit,
                                      const std::optional<MeshPlace>& covering) const {
   const std::uint32_t outside = outside_of(rays_.scene());
@@ -315,13 +318,13 @@ Landing HemisphereGather::landing_of(const Receiver& receiver, const Ray& ray,
   if (!hit) return sky_ ? landing_at(outside, sky_->place(ray.direction)) : Landing{{outside, {}}};
   if (dot(hit->normal, ray.direction) >= 0) return black;
   const std::uint32_t surface = 3 * hit->surface.object;
-  const std::optional<MeshPlace> place = place_of(receiver, *hit, covering);
+  const std::optional<MeshPlace> place = place_of(origin, *hit, covering);
   if (!place) return hit->back ? black : Landing{{surface + 2, {}}};
   return landing_at(surface + hit->back, *place);
 }
 
 /// Where rays of the row from number `first` on land.
-void HemisphereGather::land(const Receiver& receiver, std::span<const Ray> rays, std::size_t first,
+void HemisphereGather::land(Origin& origin, std::span<const Ray> rays, std::size_t first,
                             Row<Landing>& row) const {
   thread_local std::vector<std::uint32_t> order;
   tile_by_tile(row, first, rays.size(), order);
@@ -336,7 +339,7 @@ void HemisphereGather::land(const Receiver& receiver, std::span<const Ray> rays,
   lookup_.covering(hits, covering);
   row.rays.resize(rays.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
-    row.rays[order[k]] = landing_of(receiver, in_order[k], hits[k], covering[k]);
+    row.rays[order[k]] = landing_of(origin, in_order[k], hits[k], covering[k]);
   }
 }
 
@@ -349,7 +352,8 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   divide(receiver, rays, row);
   rays.send_to_cells();
   for (const DividedCell& cell : row.divided) rays.send_to_parts(cell);
-  land(receiver, rays.rays(), 0, row);
+  Origin origin{receiver};
+  land(origin, rays.rays(), 0, row);
   // The one ray of a divided cell does not count: there it must not look like noise of others.
   for (const DividedCell& cell : row.divided) {
     if (cell.cell > 0) row.rays[cell.cell] = row.rays[cell.cell - 1u];
@@ -359,7 +363,7 @@ void HemisphereGather::trace(const Receiver& receiver, int grid, std::uint64_t s
   divide_rims(row);
   if (row.divided.size() == known) return;
   for (std::size_t k = known; k < row.divided.size(); ++k) rays.send_to_parts(row.divided[k]);
-  land(receiver, rays.rays(), landed, row);
+  land(origin, rays.rays(), landed, row);
 }
 
 SiteLight HemisphereGather::light_of(const Site& site, std::span<const Rgb> irradiance) const {

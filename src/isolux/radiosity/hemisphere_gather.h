@@ -89,20 +89,26 @@ class HemisphereGather {
 
   static Landing landing_at(std::uint32_t surface, const MeshPlace& place);
 
-  /// Where a ray from the receiver lands, by what it meets first, and the triangle over that.
-  Landing landing_of(const Receiver& receiver, const Ray& ray, const std::optional<SurfaceHit>& hit,
+  /// Where rays start, and the darkest place there as the mesh has it, once it was looked for.
+  struct Origin {
+    const Receiver& receiver;
+    bool looked = false;
+    std::optional<MeshPlace> own = {};
+  };
+
+  /// Where a ray from there lands, by what it meets first, and the triangle over that.
+  Landing landing_of(Origin& origin, const Ray& ray, const std::optional<SurfaceHit>& hit,
                      const std::optional<MeshPlace>& covering) const;
-  std::optional<MeshPlace> place_of(const Receiver& receiver, const SurfaceHit& hit,
+  std::optional<MeshPlace> place_of(Origin& origin, const SurfaceHit& hit,
                                     const std::optional<MeshPlace>& covering) const;
   MeshPlace darkest_of(const MeshPlace& place) const;
-  bool much_closer(const Receiver& receiver, const SurfaceHit& hit, const MeshPlace& place,
+  bool much_closer(const Origin& origin, const SurfaceHit& hit, const MeshPlace& place,
                    bool covered) const;
   void find_bright_places(const Triangulation& mesh, std::span<const std::uint8_t> separate,
                           std::span<const Rgb> irradiance);
   void divide(const Receiver& receiver, const HemisphereRays& rays, Row<Landing>& row) const;
   void divide_rims(Row<Landing>& row) const;
-  void land(const Receiver& receiver, std::span<const Ray> rays, std::size_t first,
-            Row<Landing>& row) const;
+  void land(Origin& origin, std::span<const Ray> rays, std::size_t first, Row<Landing>& row) const;
   double expected_at(const Receiver& receiver) const;
 
   /// What a surface does to light.
