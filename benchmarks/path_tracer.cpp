@@ -61,8 +61,7 @@ Vec3 PathTracer::light_point(double choice, double a, double b,
   return chosen->corner + chosen->u * (r * (1 - b)) + chosen->v * (r * b);
 }
 
-void PathTracer::next_event(Batch& batch) const {
-  batch.segments.clear(), batch.owner.clear(), batch.carried.clear();
+void PathTracer::look_for_lights(Batch& batch) const {
   shuffle(batch.choices, batch.random);
   for (std::size_t i = 0; i < batch.paths.size(); ++i) {
     const Path& path = batch.paths[i];
@@ -85,6 +84,33 @@ void PathTracer::next_event(Batch& batch) const {
     batch.carried.push_back(path.throughput * flux_ * cosines /
                             (std::numbers::pi * squared * squared));
   }
+}
+
+void PathTracer::look_for_sources(Batch& batch) const {
+  const Scene& scene = rays_.scene();
+  const double beyond = 2 * scene.bounds().diagonal();
+  for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+    const auto& [at, throughput] = batch.paths[i];
+    if (throughput == 0) continue;
+    const Vec3 from = at.point + at.normal * rays_.epsilon();
+    for (const Source& source : scene.sources) {
+      const bool sun = source.kind == Source::Kind::directional;
+      const Vec3 to = sun ? from - source.direction * beyond : source.position;
+      const Vec3 way = normalized(to - from);
+      const double part = sun ? 1 : source.beam(-way) / length_squared(to - from);
+      const double cosine = dot(way, at.normal);
+      if (!(cosine > 0 && part > 0)) continue;
+      batch.segments.push_back({from, to});
+      batch.owner.push_back(i);
+      batch.carried.push_back(throughput * luminance(source.intensity) * part * cosine);
+    }
+  }
+}
+
+void PathTracer::next_event(Batch& batch) const {
+  batch.segments.clear(), batch.owner.clear(), batch.carried.clear();
+  if (!lights_.empty()) look_for_lights(batch);
+  look_for_sources(batch);
   batch.blocked.resize(batch.segments.size());
   rays_.occluded(batch.segments, batch.blocked);
   for (std::size_t k = 0; k < batch.segments.size(); ++k) {
@@ -93,6 +119,7 @@ void PathTracer::next_event(Batch& batch) const {
 }
 
 double PathTracer::batch_mean(const Receiver& receiver, Batch& batch) const {
+  const std::optional<Sky>& sky = rays_.scene().sky;
   constexpr int kSureBounces = 2;
   batch.paths.assign(kPaths, {receiver, 1});
   batch.sums.fill(0);
@@ -114,6 +141,9 @@ double PathTracer::batch_mean(const Receiver& receiver, Batch& batch) const {
       const Vec3 direction =
           Frame(path.at.normal).to_world({r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - a)});
       const auto hit = rays_.nearest({path.at.point + path.at.normal * rays_.epsilon(), direction});
+      if (!hit && sky) {
+        batch.sums[i] += path.throughput * std::numbers::pi * luminance(sky->luminance(direction));
+      }
       path.throughput *=
           hit && dot(hit->normal, direction) < 0 ? reflectance_[hit->surface.object] : 0;
       if (path.throughput == 0) continue;

@@ -16,7 +16,8 @@ struct TracedIrradiance {
 };
 
 /// The rival: path tracing with next-event estimation (Kajiya 1986) on the same ray caster. It
-/// needs no mesh; every point costs the same, however many there are.
+/// needs no mesh; every point costs the same, however many there are. Each bounce looks for one
+/// point of the lights and for every source; a path that leaves the scene brings the sky's light.
 ///
 /// Paths start in batches of 4 × 4, whose first directions and first points on the lights are
 /// stratified; the batch goes on bounce by bounce, so that its shadow rays are traced together.
@@ -45,12 +46,14 @@ class PathTracer {
   struct Batch;
   Vec3 light_point(double choice, double a, double b, const LightTriangle*& triangle) const;
   double batch_mean(const Receiver& receiver, Batch& batch) const;
+  void look_for_lights(Batch& batch) const;
+  void look_for_sources(Batch& batch) const;
   void next_event(Batch& batch) const;
 
   const RayCaster& rays_;
-  std::vector<LightTriangle> lights_;
-  double flux_ = 0;                  // of all lights, lm
-  std::vector<double> reflectance_;  // by object, luminance
+  std::vector<LightTriangle> lights_;  // none where only sources and the sky give light
+  double flux_ = 0;                    // of all lights, lm
+  std::vector<double> reflectance_;    // by object, luminance
 };
 
 }  // namespace isolux
