@@ -30,7 +30,7 @@ struct Statistics {
   double imbalance = 0;         ///< lm: emitted − absorbed − escaped − unshot
   double mean_irradiance = 0;   ///< lx, over all surfaces
   /// Estimated root mean square over all surfaces, of each place's error relative to its irradiance
-  /// or to mean_irradiance, whichever is more.
+  /// or to mean_irradiance, whichever is more; under a sky as docs/gathering.md says.
   double error = 0;
   double discretization_error = 0;  ///< its part from interpolation
   double sampling_error = 0;        ///< its part from rays
