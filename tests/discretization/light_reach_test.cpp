@@ -100,6 +100,30 @@ TEST(LightReach, ARoomIsReachedThroughASlitInItsLampsHousing) {
   EXPECT_NEAR(area_of(mesh, [](const Vertex& v) { return v.surface.object == 0; }), 24, 0.05);
 }
 
+TEST(LightReach, TheSkyShinesThroughAWindowButNotIntoAClosedBoxBesideIt) {
+  const std::string faces = hollow_cube(0, 1);
+  const std::string window =
+      "  - {material: m, shape: {polygon: {points: [[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], "
+      "holes: [[[0.4, 0.4, 1], [0.4, 0.6, 1], [0.6, 0.6, 1], [0.6, 0.4, 1]]]}}}\n";
+  const Scene scene = scene_of(
+      "sky: {type: overcast, illuminance: 10000}\n" + std::string(kMaterial) + "objects:\n" +
+      faces.substr(0, faces.rfind("  - ")) + window + hollow_cube(1.4, 1.6));
+  const Triangulation mesh = covered(scene, 0.1);
+  const auto outwards = [](const Vertex& v) {
+    const double middle = v.surface.object < 6 ? 0.5 : 1.5;
+    return dot(v.normal, v.position - Vec3{middle, middle, middle}) > 0;
+  };
+  const auto area = [&](bool room, bool outer) {
+    return area_of(mesh, [&](const Vertex& v) {
+      return (v.surface.object < 6) == room && outwards(v) == outer;
+    });
+  };
+  EXPECT_NEAR(area(true, false), 6 - 0.04, 0.02);
+  EXPECT_NEAR(area(true, true), 6 - 0.04, 0.02);
+  EXPECT_NEAR(area(false, true), 6 * 0.04, 0.01);
+  EXPECT_EQ(area(false, false), 0);
+}
+
 TEST(LightReach, EveryPatchBetweenPartitionsIsCovered) {
   // Slats stand on a floor, closer together than points are apart.
   constexpr int kSlats = 30;

@@ -142,6 +142,29 @@ INSTANTIATE_TEST_SUITE_P(
                    "lights: [{directional: {direction: -z, illuminance: 25}}]\n", 0.5, 25}),
     [](const auto& shadow) { return shadow.param.name; });
 
+// A convex body gets from a uniform sky what its area would get flat in the open: π L A.
+TEST(SourceLight, WhatArrivesOfASky) {
+  const Scene floor =
+      scene_of(std::string(kFloor) + "sky: {type: uniform, zenith: 100, ground: 50}\n");
+  EXPECT_NEAR(arriving_flux(RayCaster(floor), *floor.sky), kPi * 100 * 16, 0.003 * kPi * 1600);
+  const char* const kSphere =
+      "materials: {black: {reflectance: 0}}\n"
+      "objects: [{material: black, shape: {sphere: {center: [3, 2, 1], radius: 0.7}}}]\n";
+  const double area = 4 * kPi * 0.49;
+  const Scene sphere =
+      scene_of(std::string(kSphere) + "sky: {type: uniform, zenith: 100, ground: 100}\n");
+  EXPECT_NEAR(arriving_flux(RayCaster(sphere), *sphere.sky), kPi * 100 * area,
+              0.003 * kPi * 100 * area);
+  const Scene dark_ground = scene_of(std::string(kSphere) + "sky: {type: uniform, zenith: 100}\n");
+  EXPECT_NEAR(arriving_flux(RayCaster(dark_ground), *dark_ground.sky), kPi * 50 * area,
+              0.003 * kPi * 50 * area);
+  for (int type = 1; type <= kSkyTypes; ++type) {
+    Sky sky{standard_sky(type), {0, 0, 1}, normalized(Vec3{0.3, 0.4, 0.8}), gray(100), {}};
+    const double expected = luminance(horizontal_illuminance(sky)) * 16;
+    EXPECT_NEAR(arriving_flux(RayCaster(floor), sky), expected, 0.005 * expected) << type;
+  }
+}
+
 // Two roads to the mean: all that the bulb emits is absorbed in the end.
 TEST(SourceLight, InAClosedRoomAllIsAbsorbed) {
   const Scene scene = scene_of(
