@@ -168,11 +168,10 @@ double Gathering::mean_variance(const Triangle& triangle) const {
 
 /// The errors of all vertices, and of the whole.
 void Gathering::estimate() {
-  double variance = 0, weights = 0, reflectance = 0, escaped = 0, total = 0;
+  double variance = 0, reflectance = 0, escaped = 0, total = 0;
   for (const Triangle& triangle : mesh_.triangles()) {
     if (!triangle.alive) continue;
     variance += mean_variance(triangle) * weight(triangle);
-    weights += weight(triangle);
     for (VertexId v : triangle.vertices) {
       const double part = triangle.area / 3;
       reflectance += luminance(mesh_.vertex(v).reflectance) * part;
@@ -187,7 +186,7 @@ void Gathering::estimate() {
   state_.statistics.emitter_error =
       (kBiasLeft * again * std::abs(state_.bias) + unshot) / (1 - again);
   const double interpolation = std::sqrt(state_.direct_mean_square + state_.indirect_mean_square);
-  const double deviation = std::sqrt(variance / weights);
+  const double deviation = std::sqrt(variance / total);
   state_.statistics.discretization_error = interpolation;
   state_.statistics.narrow_error = std::sqrt(state_.narrow_mean_square);
   state_.statistics.sampling_error = deviation;

@@ -198,7 +198,7 @@ void Gathering::sample(std::span<const Edge> edges) {
     if (i >= little || i % kEvery == 0) first.push_back(fresh[i]);
   }
   look_at(first);
-  const double bearable = kUnseen * square(kDirectShare * state_.level) * weight();
+  const double bearable = kUnseen * square(kDirectShare * state_.level) * area();
   double unseen = 0;
   for (std::size_t i = 0; i < little && !stopped_; ++i) {
     if (i % kEvery == 0) {
@@ -246,7 +246,7 @@ double Gathering::direct_mean_square(std::span<const Edge> edges, std::span<cons
     bias += errors[i] * e.area / 3;
   }
   state_.bias = bias / area();
-  state_.narrow_mean_square = narrow / weight();
+  state_.narrow_mean_square = narrow / area();
   return mean_square([&](const Edge& e) {
     const double error = direct_error(e);
     return EdgeError{error == 0 || hairline(e) ? 0 : error / scale(e)};

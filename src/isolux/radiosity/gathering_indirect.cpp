@@ -102,7 +102,7 @@ double Gathering::surprise(VertexId v) const {
 void Gathering::refine_indirect() {
   constexpr int kMostRounds = 24;
   constexpr std::size_t kFew = 500;  // edges for each place that is not worth another round
-  const double target = square(kIndirectShare * state_.level) * weight();
+  const double target = square(kIndirectShare * state_.level) * area();
   state_.indirect_findings.clear();
   for (int round = 0; round < kMostRounds && !stopped_; ++round) {
     const std::vector<Edge> edges = living_edges(mesh_);

@@ -84,7 +84,7 @@ class Gathering {
         squares[i] = kMeanSquare / 2 * sum * weight(triangles[i]);
       }
     });
-    return std::accumulate(squares.begin(), squares.end(), 0.0) / weight();
+    return std::accumulate(squares.begin(), squares.end(), 0.0) / area();
   }
 
   // The procedure
@@ -104,9 +104,9 @@ class Gathering {
   const Surroundings* around(VertexId v) const;
   double usual_irradiance(VertexId v) const;
   double extent(VertexId v) const;
-  double importance(VertexId v) const { return square(diagonal_ / extent(v)); }
+  double room_importance(VertexId v) const { return square(diagonal_ / extent(v)); }
+  double importance(VertexId v) const;
   double weight(const Triangle& triangle) const;
-  void weigh();
 
   // E_d
   struct Middle {  // of an edge
@@ -216,7 +216,6 @@ class Gathering {
   Rgb irradiance(VertexId v) const { return state_.light[v].direct + state_.light[v].indirect; }
   void sum_up(VertexId v);
   double area() const { return state_.statistics.mesh_area; }
-  double weight() const { return rays_.scene().sky ? state_.weight : area(); }
   double mean_irradiance() const { return state_.statistics.mean_irradiance; }
   double variance_of(VertexId v) const;
   double mean_variance(const Triangle& triangle) const;

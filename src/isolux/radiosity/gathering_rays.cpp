@@ -98,7 +98,7 @@ std::vector<int> Gathering::wanted_grids() {
   for (VertexId v = 0; v < areas.size(); ++v) {
     if (state_.light[v].gathers) sum += worth(v);
   }
-  const double allowed = square(kSamplingShare * state_.level) * weight() / kHat;
+  const double allowed = square(kSamplingShare * state_.level) * area() / kHat;
   const double fineness = std::pow(sum / allowed, 1 / kFall);
   parallel_for(grids.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (auto v = static_cast<VertexId>(begin); v < end; ++v) {

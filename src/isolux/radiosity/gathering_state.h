@@ -83,7 +83,7 @@ struct GatheringState {
   double level = 0;  // the tolerance that is being worked for
   int tries = 0;     // levels below the tolerance asked for
   double direct_mean_square = 0, indirect_mean_square = 0;  // of interpolation, relative
-  double weight = 0;              // under a sky: of all triangles, by area and importance, m²
+  double mean_importance = 1;     // Gathering::room_importance(), over all surfaces
   double narrow_mean_square = 0;  // of interpolating E_d along edges too short to be split
   // The rules for errors of interpolating E_i are right times this: at vertices among others, and
   // between gathering ones.

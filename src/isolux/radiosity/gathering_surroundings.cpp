@@ -48,7 +48,13 @@ void Gathering::look_around() {
     }
     state_.around[v] = sum;
   }
-  weigh();
+  double sum = 0, area = 0;
+  for (const Triangle& triangle : mesh_.triangles()) {
+    if (!triangle.alive) continue;
+    for (const VertexId v : triangle.vertices) sum += room_importance(v) * triangle.area / 3;
+    area += triangle.area;
+  }
+  state_.mean_importance = area > 0 ? sum / area : 1;
 }
 
 /// The vertex whose surroundings stand for those of v; none before look_around().
@@ -77,18 +83,17 @@ double Gathering::extent(VertexId v) const {
   return std::clamp(kAcross * seen->distance, kSmallest * diagonal_, diagonal_);
 }
 
-/// What a triangle counts in the error over all surfaces, m²: its area, as if the room that it is
-/// in were as large as the scene. Else the ground outside would be all that counts.
+/// How much an error at a vertex counts for its area. Over all surfaces the ground outside would be
+/// all that counts; as if the room that each is in were as large as the scene, the ground that
+/// lights it would not. So errors are to be small in both means: these are added.
+double Gathering::importance(VertexId v) const {
+  return state_.around.empty() ? 1 : 1 + room_importance(v) / state_.mean_importance;
+}
+
+/// What a triangle counts in the error over all surfaces, m².
 double Gathering::weight(const Triangle& triangle) const {
   const auto& [a, b, c] = triangle.vertices;
   return triangle.area * ((importance(a) + importance(b) + importance(c)) / 3);
-}
-
-void Gathering::weigh() {
-  state_.weight = 0;
-  for (const Triangle& triangle : mesh_.triangles()) {
-    if (triangle.alive) state_.weight += weight(triangle);
-  }
 }
 
 }  // namespace isolux

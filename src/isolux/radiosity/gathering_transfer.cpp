@@ -125,7 +125,6 @@ void Gathering::find_excess() {
 void Gathering::transfer(bool rough) {
   find_excess();
   share_out();
-  weigh();
   constexpr int kMostSweeps = 10'000;
   const double enough = (rough ? kRoughUnshotShare : kUnshotShare) * state_.level;
   std::vector<VertexId> gatherers;

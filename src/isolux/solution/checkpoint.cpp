@@ -82,7 +82,7 @@ void for_each_scalar(State& state, F&& f) {
   f("bend_scale", state.bend_scale);
   f("edge_scale", state.edge_scale);
   f("bias", state.bias);
-  f("weight", state.weight);
+  f("mean_importance", state.mean_importance);
   f("balance_r", state.balance.r);
   f("balance_g", state.balance.g);
   f("balance_b", state.balance.b);
