@@ -55,9 +55,7 @@ TEST(Reader, AllExamplesAreScenesWithLightAndCamera) {
     SCOPED_TRACE(entry.path().string());
     const Scene scene = load_scene(entry.path());
     EXPECT_FALSE(scene.cameras.empty());
-    double flux = 0;
-    for (const Object& object : scene.objects) flux += luminous_flux(object);
-    EXPECT_GT(flux, 0);
+    EXPECT_TRUE(scene.has_light());
   }
 }
 
