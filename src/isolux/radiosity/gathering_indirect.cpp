@@ -322,6 +322,7 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
   std::vector<std::size_t> costly;
   std::vector<Edge> to_split;
   std::vector<Finding> findings;
+  double found = 0, foreseen = 0;
   for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
     const Edge& edge = suspect[i];
     if (rows[i].links.empty()) {
@@ -337,7 +338,10 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     state_.indirect_findings[edge.key()] = {static_cast<float>(e),
                                             static_cast<float>(std::sqrt(noise))};
     findings.push_back({rule * edge.area, (e * e - noise) * edge.area, noise * edge.area});
+    found += e * edge.area;
+    foreseen += std::sqrt(rule) * edge.area;
   }
+  learn_lean(found, foreseen);
   learn(state_.edge_scale, std::move(findings));
   for (std::size_t i = 0; i < suspect.size() && !stopped_; ++i) {
     if (rows[i].links.empty()) continue;
@@ -378,9 +382,21 @@ Gathering::EdgeError Gathering::indirect_error(const Edge& e) const {
   return {found->second.error * rule / (rule + noise), rule * noise / (rule + noise)};
 }
 
-/// The same as far as it was looked at.
+/// The same with its sign. Where nobody looked: as findings lean on the whole.
 double Gathering::likely_indirect_error(const Edge& e) const {
-  return state_.indirect_findings.contains(e.key()) ? indirect_error(e).likely : 0;
+  const double lean = state_.indirect_findings.contains(e.key()) ? 1 : state_.lean;
+  return lean == 0 ? 0 : lean * indirect_error(e).likely;
+}
+
+/// How findings lean, of which these are new: what was found, signs and all, in parts of what the
+/// rule foresaw (m² lx). Known only where light leaves the scene: else the balance sets right what
+/// interpolation loses.
+void Gathering::learn_lean(double found, double foreseen) {
+  constexpr double kKept = 0.5;
+  if (closed_) return;
+  state_.found = kKept * state_.found + found;
+  state_.foreseen = kKept * state_.foreseen + foreseen;
+  state_.lean = state_.foreseen > 0 ? std::clamp(state_.found / state_.foreseen, -1.0, 1.0) : 0;
 }
 
 /// What interpolation of E_i costs, relative.

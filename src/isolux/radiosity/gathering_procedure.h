@@ -199,6 +199,7 @@ class Gathering {
     double noise;  // of `found`, m² · lx²
   };
   static void learn(double& rule_scale, std::vector<Finding> findings);
+  void learn_lean(double found, double foreseen);
   double difference(VertexId v, VertexId w) const;
   double usual_bend(VertexId v, VertexId w) const;
   double area_around(VertexId v) const;
@@ -287,6 +288,7 @@ class Gathering {
     Rgb emitted, emitted_to_rays;
   };
   std::vector<Share> shares_;  // by vertex, as of share_out()
+  bool closed_ = true;         // no light leaves the scene, as of balance_indirect()
   bool stopped_ = false;
 };
 

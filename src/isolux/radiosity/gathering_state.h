@@ -88,6 +88,9 @@ struct GatheringState {
   // The rules for errors of interpolating E_i are right times this: at vertices among others, and
   // between gathering ones.
   double bend_scale = 0.7, edge_scale = 0.7;
+  // Of looked-at edges between gathering vertices: their errors, what the rule foresaw, m² lx, and
+  // the one in parts of the other.
+  double found = 0, foreseen = 0, lean = 0;
   double bias = 0;        // mean of MiddleLight::error, lx
   Rgb balance = gray(1);  // what is gathered is put right by, so that all light sent arrives
   Statistics statistics;

@@ -199,9 +199,9 @@ void Gathering::balance_indirect() {
     received += light.indirect * (l > 0 ? share.seen * (1 - indirect_excess_[v] / l) : 0);
   }
   const Rgb before = state_.balance;
-  const bool closed = !rays_.scene().sky && lost <= kClosed * luminance(sent);
+  closed_ = !rays_.scene().sky && lost <= kClosed * luminance(sent);
   const auto balanced = [&](double now, double out, double in) {
-    return closed && in > 0 ? std::clamp(now * out / in, 1 / kMost, kMost) : 1;
+    return closed_ && in > 0 ? std::clamp(now * out / in, 1 / kMost, kMost) : 1;
   };
   state_.balance = {balanced(before.r, sent.r, received.r), balanced(before.g, sent.g, received.g),
                     balanced(before.b, sent.b, received.b)};

@@ -81,6 +81,9 @@ void for_each_scalar(State& state, F&& f) {
   f("narrow_mean_square", state.narrow_mean_square);
   f("bend_scale", state.bend_scale);
   f("edge_scale", state.edge_scale);
+  f("found", state.found);
+  f("foreseen", state.foreseen);
+  f("lean", state.lean);
   f("bias", state.bias);
   f("mean_importance", state.mean_importance);
   f("balance_r", state.balance.r);
