@@ -7,7 +7,6 @@ namespace isolux {
 namespace {
 
 constexpr double kIndirectShare = 0.65;  // of the tolerance: interpolation of E_i
-constexpr double kRenewalShare = 0.1;    // of it: what a row of links may gain from finer triangles
 
 // Of the error squared that is allowed, what vertices between gathering ones may make up, and what
 // edges may.
@@ -261,45 +260,6 @@ void Gathering::learn(double& rule_scale, std::vector<Finding> findings) {
   // Half of the way, since what is looked at from one round to the next is not alike.
   const double factor = std::sqrt(std::sqrt(ratio));
   rule_scale = std::clamp(rule_scale * std::clamp(factor, 0.7, 1.4), 0.1, 1.5);
-}
-
-/// The vertices whose rays landed on edges that are split since, where this matters: the mesh knows
-/// the light there better now.
-std::vector<VertexId> Gathering::outdated_vertices() const {
-  if (state_.split_since.empty()) return {};
-  const double matters = kRenewalShare * state_.level;
-  std::vector<char> touched(state_.light.size());  // ends of such edges
-  for (const auto& [edge, error] : state_.split_since)
-    touched[edge >> 32] = touched[edge & 0xffffffff] = 1;
-  const std::uint32_t outside = HemisphereGather::outside_of(rays_.scene());
-  const auto gain_of = [&](const Site& site) {
-    if (site.surface == outside) return 0.0;
-    const auto& v = site.vertices;
-    if (touched[v[0]] + touched[v[1]] + touched[v[2]] < 2) return 0.0;
-    double most = 0;
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(v[k], v[(k + 1) % 3]);
-      const auto split = state_.split_since.find(Edge{a, b}.key());
-      if (split != state_.split_since.end()) most = std::max(most, double(split->second));
-    }
-    return most > 0 ? most * luminance(mesh_.vertex(v[0]).reflectance) / 2 : 0;
-  };
-  std::vector<double> gain;
-  for (const Site& site : state_.sites.sites()) gain.push_back(gain_of(site));
-  std::vector<char> renew(state_.light.size());
-  parallel_for(renew.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const Row<Link>& row = state_.light[v].row;
-      renew[v] = state_.light[v].gathers && mean_over(row, [&](std::size_t i) {
-                                              return gain[row.rays[i].site];
-                                            }) > matters * scale(static_cast<VertexId>(v));
-    }
-  });
-  std::vector<VertexId> vertices;
-  for (VertexId v = 0; v < renew.size(); ++v) {
-    if (renew[v]) vertices.push_back(v);
-  }
-  return vertices;
 }
 
 void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {

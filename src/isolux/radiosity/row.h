@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace isolux {
@@ -41,5 +42,10 @@ auto mean_over(const Row<Ray>& row, const Value& value) {
   }
   return sum / static_cast<double>(row.cells());
 }
+
+/// The variance of the mean over a row, of whose rays these are the values: that of the cells that
+/// are not divided, and that of the parts of the others.
+double variance_of_mean(int grid, std::span<const DividedCell> divided,
+                        std::span<const double> values);
 
 }  // namespace isolux
