@@ -10,9 +10,12 @@ namespace isolux {
 void Gathering::look_around() {
   if (!rays_.scene().sky) return;
   const std::span<const Site> sites = state_.sites.sites();
+  const auto in_mesh = [&](const Site& site) {
+    return !hemisphere_->lost(site) && site.surface % 3 != 2;  // which only emits
+  };
   std::vector<double> light(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (hemisphere_->lost(sites[i])) continue;
+    if (!in_mesh(sites[i])) continue;
     for (const VertexId v : sites[i].vertices) light[i] += luminance(state_.sent[v]) / 3;
   }
   state_.around.resize(state_.light.size());
@@ -23,7 +26,7 @@ void Gathering::look_around() {
       const auto mean = [&](const auto& value) {
         return mean_over(row, [&](std::size_t i) {
           const Site& site = sites[row.rays[i].site];
-          return hemisphere_->lost(site) ? 0.0 : value(row.rays[i].site, site);
+          return in_mesh(site) ? value(row.rays[i].site, site) : 0.0;
         });
       };
       const double met = mean([](std::uint32_t, const Site&) { return 1.0; });
@@ -57,7 +60,7 @@ void Gathering::look_around() {
   state_.mean_importance = area > 0 ? sum / area : 1;
 }
 
-/// The vertex whose surroundings stand for those of v; none before look_around().
+/// What surrounds a vertex, or one that it lies among; unknown before look_around().
 const Surroundings* Gathering::around(VertexId v) const {
   if (state_.around.empty()) return nullptr;
   while (v >= state_.around.size()) v = state_.light[v].among.vertices[0];
