@@ -166,6 +166,8 @@ TracedIrradiance PathTracer::irradiance(const Receiver& receiver, double relativ
                                         std::uint64_t most_paths, std::uint64_t seed,
                                         std::uint64_t id) const {
   constexpr double kLeastBatches = 32;
+  // A sky may show through a small opening: that nothing was met of it yet does not mean much.
+  const double least_blind = rays_.scene().sky ? 4096 : kLeastBatches;
   Batch batch{Random(seed, id), {}, {}, {}, {}, true, {}, {}, {}, {}};
   TracedIrradiance traced;
   double sum = 0, squares = 0;
@@ -175,6 +177,7 @@ TracedIrradiance PathTracer::irradiance(const Receiver& receiver, double relativ
     traced.paths += kPaths;
     if (n < kLeastBatches) continue;
     traced.irradiance = sum / n;
+    if (sum == 0 && n < least_blind && traced.paths + kPaths <= most_paths) continue;
     traced.standard_error = std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 1) / n);
     if (traced.standard_error <= std::max(relative * traced.irradiance, absolute) ||
         traced.paths + kPaths > most_paths) {

@@ -70,7 +70,7 @@ const Surroundings* Gathering::around(VertexId v) const {
 /// The irradiance that errors at a vertex count little against, lx: the mean over all surfaces;
 /// under a sky, that of what is seen from there, where that is less.
 double Gathering::usual_irradiance(VertexId v) const {
-  constexpr double kDarkest = 0.01;  // of the mean
+  constexpr double kDarkest = 0.001;  // of the mean
   const Surroundings* const seen = around(v);
   if (!seen || seen->irradiance == 0) return mean_irradiance();
   return std::clamp(seen->irradiance, kDarkest * mean_irradiance(), mean_irradiance());
