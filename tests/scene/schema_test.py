@@ -41,7 +41,6 @@ BEYOND_SCHEMA = {
     "singular-matrix",
     "sky-nan",
     "sky-negative",
-    "sky-sun-below-horizon",
     "sky-too-bright",
     "sky-without-sun",
     "sweep-radii",

@@ -42,7 +42,10 @@ Gathering::Gathering(GatheringState& state, const RayCaster& rays, const Options
 
 void Gathering::run() {
   if (mesh_.vertices().empty()) first_solution();
-  for (; keep_going(); ++state_.statistics.iterations) {
+  // No light gets to any surface: there is nothing to refine.
+  const bool dark = !(mean_irradiance() > 0);
+  if (dark && !stopped_) state_.statistics.converged = true;
+  for (; !dark && keep_going(); ++state_.statistics.iterations) {
     refine_direct();
     gather_all(trial_grid());
     transfer();
@@ -242,11 +245,12 @@ void Gathering::sum_up(VertexId v) {
 }
 
 Rules gathering_rules(const Scene& scene) {
-  constexpr double kLongestEdges = 8.5;  // across the scene
+  // Across the scene: under a sky it is mostly ground, and rooms are small parts of it.
+  constexpr double kLongestEdges = 8.5, kLongestUnderSky = 25;
   constexpr double kSmooth = 0.77;       // rad: a little less than half a right angle
   const double size = scene.bounds().diagonal();
   Rules rules;
-  rules.max_edge = size / kLongestEdges;
+  rules.max_edge = size / (scene.sky ? kLongestUnderSky : kLongestEdges);
   rules.min_area = 1e-14 * size * size;
   rules.normal_tolerance = kSmooth;
   return rules;
@@ -255,7 +259,8 @@ Rules gathering_rules(const Scene& scene) {
 void gather_radiosity(GatheringState& state, const RayCaster& rays, const Options& options,
                       const GatheringCallbacks& callbacks) {
   if (!rays.scene().has_light()) {
-    throw InputError("the scene has no light: give an object an 'emission', or 'lights'");
+    throw InputError(
+        "the scene has no light: give an object an 'emission', or 'lights', or a 'sky'");
   }
   Gathering(state, rays, options, callbacks).run();
 }

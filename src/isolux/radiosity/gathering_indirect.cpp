@@ -298,8 +298,9 @@ void Gathering::split_suspects(std::span<const Edge> suspect, double allowed) {
     state_.indirect_findings[edge.key()] = {static_cast<float>(e),
                                             static_cast<float>(std::sqrt(noise))};
     findings.push_back({rule * edge.area, (e * e - noise) * edge.area, noise * edge.area});
-    found += e * edge.area;
-    foreseen += std::sqrt(rule) * edge.area;
+    const double weight = edge.area * (importance(edge.a) + importance(edge.b));
+    found += e * weight;
+    foreseen += std::sqrt(rule) * weight;
   }
   learn_lean(found, foreseen);
   learn(state_.edge_scale, std::move(findings));
@@ -353,7 +354,10 @@ double Gathering::likely_indirect_error(const Edge& e) const {
 /// interpolation loses.
 void Gathering::learn_lean(double found, double foreseen) {
   constexpr double kKept = 0.5;
-  if (closed_) return;
+  if (closed_) {
+    state_.found = state_.foreseen = state_.lean = 0;
+    return;
+  }
   state_.found = kKept * state_.found + found;
   state_.foreseen = kKept * state_.foreseen + foreseen;
   state_.lean = state_.foreseen > 0 ? std::clamp(state_.found / state_.foreseen, -1.0, 1.0) : 0;

@@ -288,7 +288,7 @@ class Gathering {
     Rgb emitted, emitted_to_rays;
   };
   std::vector<Share> shares_;  // by vertex, as of share_out()
-  bool closed_ = true;         // no light leaves the scene, as of balance_indirect()
+  bool closed_ = true;         // no light leaves the scene, as of the last transfer()
   bool stopped_ = false;
 };
 

@@ -22,6 +22,7 @@ void Gathering::look_around() {
   parallel_for(state_.light.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Row<Link>& row = state_.light[v].row;
+      state_.around[v] = {};
       if (!state_.light[v].gathers || row.empty()) continue;
       const auto mean = [&](const auto& value) {
         return mean_over(row, [&](std::size_t i) {
@@ -42,14 +43,17 @@ void Gathering::look_around() {
   for (const VertexId v : order()) {
     if (state_.light[v].gathers) continue;
     Surroundings sum;
+    double weights = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double weight = state_.light[v].among.weights[k];
       if (weight == 0) continue;
       const Surroundings& parent = state_.around[state_.light[v].among.vertices[k]];
+      if (parent.distance == 0) continue;
       sum.irradiance += weight * parent.irradiance;
       sum.distance += weight * parent.distance;
+      weights += weight;
     }
-    state_.around[v] = sum;
+    if (weights > 0) state_.around[v] = {sum.irradiance / weights, sum.distance / weights};
   }
   double sum = 0, area = 0;
   for (const Triangle& triangle : mesh_.triangles()) {

@@ -187,8 +187,7 @@ void HemisphereGather::divide_rims(Row<Landing>& row) const {
   if (rims.empty() || open == 0) return;
   const double most = std::sqrt(kMostRays * double(row.cells()) / double(rims.size()));
   const double parts = kParts * std::pow(double(row.cells()) / double(open), 0.4);
-  const auto n = static_cast<std::uint16_t>(std::min({parts, most, kMostParts}));
-  if (n < 2) return;
+  const auto n = static_cast<std::uint16_t>(std::max(2.0, std::min({parts, most, kMostParts})));
   thread_local std::vector<std::uint8_t> divided;
   divided.assign(row.cells(), 0);
   for (const DividedCell& cell : row.divided) divided[cell.cell] = 1;

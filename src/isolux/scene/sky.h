@@ -31,6 +31,11 @@ inline constexpr int kSkyTypes = 16;
 /// The sky of that type, 1 … kSkyTypes.
 SkyDistribution standard_sky(int type);
 
+// What skies may be, far beyond those of the standard: coefficients, and the luminance relative to
+// that in the zenith; cd/m², nearly that of the sun.
+inline constexpr double kLargestSkyCoefficient = 100, kLargestContrast = 500;
+inline constexpr double kBrightestSky = 1e9;
+
 /// The sky around a scene and the ground below its horizon, both infinitely far away. The sun's
 /// disk is not part of it: that is a directional source.
 struct Sky {

@@ -10,9 +10,7 @@
 namespace isolux {
 namespace {
 
-constexpr double kLargestLuminance = 1e9;    ///< cd/m², nearly that of the sun
-constexpr double kLargestCoefficient = 100;  ///< far beyond those of the standard's skies
-constexpr double kBelowHorizon = -1e-9;      ///< cosine from the zenith: less is no rounding
+constexpr double kDarkest = 1e-9;  ///< cd/m² or lx: less is 0 or a mistake
 
 int read_type(const Value& value) {
   constexpr std::array kNamed{5, 16, 12};
@@ -25,9 +23,9 @@ SkyDistribution read_coefficients(const Value& value) {
   std::array<double, 5> numbers{};
   for (std::size_t i = 0; i < items.size(); ++i) {
     numbers[i] = items[i].number();
-    if (!(std::abs(numbers[i]) <= kLargestCoefficient)) {
+    if (!(std::abs(numbers[i]) <= kLargestSkyCoefficient)) {
       items[i].fail(fmt::format("the coefficients of a 'distribution' lie within {}: check them",
-                                kLargestCoefficient));
+                                kLargestSkyCoefficient));
     }
   }
   const auto& [a, b, c, d, e] = numbers;
@@ -50,11 +48,6 @@ void read_directions(const Value& value, const Fields& fields, Sky& sky) {
         "is brighter");
   }
   sky.sun = sun ? unit_vector(sun->direction()) : sky.up;
-  if (needed && dot(sky.sun, sky.up) < kBelowHorizon) {
-    sun->fail(
-        "'sun' must not lie below the horizon: such a sky is one by day. It points towards the "
-        "sun");
-  }
 }
 
 }  // namespace
@@ -83,17 +76,29 @@ Sky read_sky(const Value& value) {
   if (range.least < 0) {
     shape.fail("this sky has directions of negative luminance: check its 'distribution'");
   }
+  if (!(range.most <= kLargestContrast)) {
+    shape.fail(fmt::format(
+        "this sky is somewhere more than {} times as bright as in the zenith: check its "
+        "'distribution'",
+        kLargestContrast));
+  }
   sky.zenith = read_amount(fields, illuminance ? "illuminance" : "zenith");
+  if (max_channel(sky.zenith) > 0 && max_channel(sky.zenith) < kDarkest) {
+    (illuminance ? *illuminance : *zenith).fail("less than 1e-9: give 0 for no light");
+  }
   if (illuminance) {
     sky.zenith = sky.zenith / horizontal_illuminance(sky.distribution, cos_sun);
   }
-  if (!(range.most * max_channel(sky.zenith) <= kLargestLuminance)) {
+  if (!(range.most * max_channel(sky.zenith) <= kBrightestSky)) {
     (illuminance ? *illuminance : *zenith)
         .fail("the sky is brighter than 1e9 cd/m2 in some directions: check its numbers");
   }
   if (const auto ground = fields.find("ground")) {
     sky.ground = ground->color();
-    if (!(max_channel(sky.ground) <= kLargestLuminance)) {
+    if (max_channel(sky.ground) > 0 && max_channel(sky.ground) < kDarkest) {
+      ground->fail("less than 1e-9: give 0 for no light");
+    }
+    if (!(max_channel(sky.ground) <= kBrightestSky)) {
       ground->fail("'ground' is brighter than 1e9 cd/m2: check its numbers");
     }
   }

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kFormat = "isolux checkpoint 6";
+constexpr const char* kFormat = "isolux checkpoint 7";
 
 [[noreturn]] void damaged(const char* key) {
   throw InputError(fmt::format("is damaged: '{}' is missing or makes no sense", key));
@@ -275,6 +275,10 @@ GatheringState state_from_json(const json& object, Triangulation mesh, const Sce
   if (state.sent.size() != vertex_count) damaged("sent");
   state.around = get<Surroundings>(object, "surroundings");
   if (state.around.size() > vertex_count) damaged("surroundings");
+  for (const Surroundings& s : state.around) {
+    const bool sound = s.irradiance >= 0 && s.distance >= 0;
+    if (!sound || !std::isfinite(s.irradiance + s.distance)) damaged("surroundings");
+  }
   for (std::size_t v = state.around.size(); v < vertex_count && !state.around.empty(); ++v) {
     if (state.light[v].among.vertices[0] >= v) damaged("light");
   }
@@ -292,6 +296,10 @@ GatheringState state_from_json(const json& object, Triangulation mesh, const Sce
     if (!j.is_number()) damaged(key);
     value = j.get<double>();
   });
+  if (!(std::abs(state.lean) <= 1)) damaged("lean");
+  if (!(state.mean_importance >= 1) || !std::isfinite(state.mean_importance)) {
+    damaged("mean_importance");
+  }
   constexpr std::uint64_t kMost = 1 << 16;
   state.tries = static_cast<int>(integer_member(object, "tries", kMost));
   state.statistics = statistics_from_json(member(object, "statistics"));

@@ -15,21 +15,9 @@ constexpr double kSlack = 1e-6;         ///< degrees, of the widths of hemispher
 constexpr double kParallel = 1 - 1e-6;  ///< cosine of what counts as the same direction
 constexpr std::size_t kMostSources = 1000;
 
-/// The luminance where the sky is brightest, in parts of that in the zenith: at the sun, or at the
-/// horizon, or no less than that.
-double brightest(const Sky& sky) {
-  const SkyDistribution& distribution = sky.distribution;
-  const double cos_sun = dot(sky.sun, sky.up);
-  const double gradation = std::max(distribution.gradation(0), distribution.gradation(1));
-  const double indicatrix = std::max(distribution.indicatrix(1), distribution.indicatrix(-1));
-  return std::max(
-      1.0, gradation * indicatrix / (distribution.gradation(1) * distribution.indicatrix(cos_sun)));
-}
-
 void require_dim(const Rgb& luminance, const SourceLocation& place) {
-  constexpr double kMost = kMostExitance / std::numbers::pi;
-  if (max_channel(luminance) <= kMost) return;
-  throw InputError(place, fmt::format("this sky would be brighter than {:.3g} cd/m²", kMost));
+  if (max_channel(luminance) <= kBrightestSky) return;
+  throw InputError(place, fmt::format("this sky would be brighter than {:g} cd/m²", kBrightestSky));
 }
 
 }  // namespace
@@ -124,7 +112,8 @@ std::optional<Sky> Skies::sky() const {
       sky.distribution = own->distribution;
       sky.sun = pattern ? own->sun : sky.up;
       sky.zenith = own->zenith;
-      require_dim(sky.zenith * brightest(sky), source.place);
+      require_dim(sky.zenith * relative_range(sky.distribution, dot(sky.sun, sky.up)).most,
+                  source.place);
     }
     if (makes_ground) {
       has_ground = true;

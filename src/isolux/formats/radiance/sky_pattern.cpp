@@ -103,20 +103,18 @@ void fit_intermediate(const SkyPattern& pattern, PatternedSky& result) {
   result.sky.zenith *= pattern.factor / pattern.normalization;
 }
 
-/// Whether the sky is nowhere darker than 0, and finite.
+/// Whether scenes may have such a sky.
 bool is_sound(const Sky& sky) {
   const auto sound = [](double value) { return value >= 0 && std::isfinite(value); };
-  const SkyDistribution& distribution = sky.distribution;
-  const double cos_sun = dot(sky.sun, sky.up);
-  const double zenith = distribution.gradation(1) * distribution.indicatrix(cos_sun);
   if (!sound(sky.zenith.r) || !sound(sky.ground.r)) return false;
   if (sky.zenith.r == 0) return true;
-  if (!(zenith > 0 && std::isfinite(zenith))) return false;
-  bool all = sound(distribution.gradation(0) * distribution.indicatrix(1) / zenith);
-  for_directions(cos_sun, [&](double z, double chi) {
-    all = all && sound(distribution.gradation(z) * distribution.indicatrix(chi) / zenith);
-  });
-  return all;
+  const auto& [a, b, c, d, e, slope] = sky.distribution;
+  if (b > 0) return false;
+  for (const double coefficient : {a, b, c, d, e}) {
+    if (!(std::abs(coefficient) <= kLargestSkyCoefficient)) return false;
+  }
+  const LuminanceRange range = relative_range(sky.distribution, dot(sky.sun, sky.up));
+  return range.least >= 0 && range.most <= kLargestContrast;
 }
 
 }  // namespace
