@@ -18,7 +18,7 @@ constexpr std::size_t kLeastPaths = 1024, kPathsOfLight = 4;
 constexpr int kReflections = 12;
 // How often light is looked for from a point, straight and by reflections.
 constexpr int kStraightLooks = 24;
-constexpr int kPathsBack = 12;
+constexpr int kPathsBack = 12, kPathsBackToSky = 192;
 // A second point of the surface is this part of the scene's diagonal away from the first.
 constexpr double kAside = 1e-3;
 constexpr int kSides = 4;
@@ -73,8 +73,11 @@ std::optional<LightReach::Place> LightReach::reflected(const Ray& ray, Index& ob
   return above(hit->point, hit->normal);
 }
 
-/// Lights, then sources.
-std::size_t LightReach::kinds() const { return lights_.size() + rays_.scene().sources.size(); }
+/// Lights, then sources, then the sky.
+std::size_t LightReach::kinds() const {
+  const Scene& scene = rays_.scene();
+  return lights_.size() + scene.sources.size() + (scene.sky && scene.sky->shines());
+}
 
 /// Of light of that kind.
 Ray LightReach::first_ray(std::size_t kind, Random& random) const {
@@ -83,6 +86,10 @@ Ray LightReach::first_ray(std::size_t kind, Random& random) const {
   if (kind < lights_.size()) {
     const Place& from = lights_[kind][random.below(lights_[kind].size())];
     return {from.position, diffuse_direction(from.normal, random)};
+  }
+  if (kind == lights_.size() + scene.sources.size()) {
+    const Line line = random_line(scene.bounds().center(), radius, random);
+    return {line.point - line.direction * (2 * radius), line.direction};
   }
   const Source& source = scene.sources[kind - lights_.size()];
   if (source.kind != Source::Kind::directional) {
@@ -97,7 +104,7 @@ Ray LightReach::first_ray(std::size_t kind, Random& random) const {
 
 void LightReach::send_light(std::uint64_t seed) {
   const Scene& scene = rays_.scene();
-  if (kinds() == 0 || under_sky()) return;
+  if (kinds() == 0) return;
   std::vector<std::size_t> known(scene.objects.size());
   const std::size_t paths = std::max(kLeastPaths, kPathsOfLight * kinds());
   for (std::size_t path = 0; path < paths; ++path) {
@@ -126,6 +133,9 @@ bool LightReach::lit_straight(const Place& place, Random& random) const {
     const Place& light = lights_[kind][random.below(lights_[kind].size())];
     return !rays_.occluded({place.position, light.position});
   }
+  if (kind == lights_.size() + sources.size()) {
+    return !rays_.nearest({place.position, diffuse_direction(place.normal, random)});
+  }
   const Source& source = sources[kind - lights_.size()];
   if (source.kind != Source::Kind::directional) return opens_to(place, source.position);
   return opens_to(place, place.position - source.direction * (2 * diagonal_));
@@ -137,7 +147,7 @@ bool LightReach::sees_lit_place(const Place& place, Random& random) const {
 }
 
 bool LightReach::sees_light(const SurfacePoint& point, Random& random) const {
-  if (kinds() == 0 || under_sky()) return true;
+  if (kinds() == 0) return true;
   const Place start = above(point.position, point.normal);
   const auto& cameras = rays_.scene().cameras;
   if (std::any_of(cameras.begin(), cameras.end(),
@@ -152,7 +162,8 @@ bool LightReach::sees_light(const SurfacePoint& point, Random& random) const {
 
 bool LightReach::is_on_path_of_light(const SurfacePoint& point, Random& random) const {
   const Place start = above(point.position, point.normal);
-  for (int i = 0; i < kPathsBack; ++i) {
+  const int paths = rays_.scene().sky ? kPathsBackToSky : kPathsBack;
+  for (int i = 0; i < paths; ++i) {
     Place place = start;
     for (int k = 0; k < kReflections; ++k) {
       Index object = 0;

@@ -15,8 +15,7 @@ namespace isolux {
 /// dark as it is.
 class LightReach {
  public:
-  /// `walk` must outlive it. Where the scene has no light, everything counts as reached; and under
-  /// a sky, whose light may come through an opening that no path finds.
+  /// `walk` must outlive it. Where the scene has no light, everything counts as reached.
   LightReach(const SurfaceWalk& walk, std::uint64_t seed);
 
   /// Whether a light, or a place that light reaches, is seen from the point, as far as a few rays
@@ -44,7 +43,6 @@ class LightReach {
   Place above(const Vec3& position, const Vec3& normal) const;
   void find_lights(std::uint64_t seed);
   std::size_t kinds() const;
-  bool under_sky() const { return rays_.scene().sky && rays_.scene().sky->shines(); }
   Ray first_ray(std::size_t kind, Random& random) const;
   void send_light(std::uint64_t seed);
   std::optional<Place> reflected(const Ray& ray, std::uint32_t& object) const;

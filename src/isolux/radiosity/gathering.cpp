@@ -245,12 +245,11 @@ void Gathering::sum_up(VertexId v) {
 }
 
 Rules gathering_rules(const Scene& scene) {
-  // Across the scene: under a sky it is mostly ground, and rooms are small parts of it.
-  constexpr double kLongestEdges = 8.5, kLongestUnderSky = 25;
+  constexpr double kLongestEdges = 8.5;  // across the scene
   constexpr double kSmooth = 0.77;       // rad: a little less than half a right angle
   const double size = scene.bounds().diagonal();
   Rules rules;
-  rules.max_edge = size / (scene.sky ? kLongestUnderSky : kLongestEdges);
+  rules.max_edge = size / kLongestEdges;
   rules.min_area = 1e-14 * size * size;
   rules.normal_tolerance = kSmooth;
   return rules;
